@@ -1,0 +1,192 @@
+"""The compiled core: conversions only. Use the names of `drystone`, not these."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+class DrystoneError(Exception): ...
+class SceneError(DrystoneError, ValueError): ...
+class LcpError(DrystoneError, ValueError): ...
+class StartError(LcpError): ...
+
+@final
+class Scene:
+    def __init__(
+        self,
+        gravity: tuple[float, float],
+        friction: float,
+        contact_tolerance: float | None = None,
+    ) -> None: ...
+    @property
+    def gravity(self) -> tuple[float, float]: ...
+    @property
+    def friction(self) -> float: ...
+    @property
+    def contact_tolerance(self) -> float | None: ...
+    def add_box(
+        self,
+        center: tuple[float, float],
+        size: tuple[float, float],
+        angle: float,
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+    ) -> str: ...
+    def add_polygon(
+        self,
+        vertices: Sequence[tuple[float, float]],
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+    ) -> str: ...
+    def __len__(self) -> int: ...
+    def names(self) -> list[str]: ...
+    def body(self, name: str) -> Body: ...
+    def bodies(self) -> list[Body]: ...
+    def contacts(self) -> list[Contact]: ...
+    def corner_touches(self) -> list[tuple[str, str]]: ...
+    def to_json(self) -> str: ...
+    def save(self, path: str) -> None: ...
+    @staticmethod
+    def from_json(text: str, source: str = "scene") -> Scene: ...
+    @staticmethod
+    def load(path: str) -> Scene: ...
+    @staticmethod
+    def built_in(name: str, parameters: dict[str, Any]) -> Scene: ...
+
+@final
+class Body:
+    """A snapshot of one body. `vertices` is (n, 2) in world coordinates, metres, counter-clockwise."""
+
+    name: str
+    fixed: bool
+    density: float
+    friction: float
+    mass: float
+    inertia: float
+    centroid: tuple[float, float]
+    vertices: NDArray[np.float64]
+
+@final
+class Contact:
+    """One contact point. `normal` is a unit vector from body `a` into body `b`."""
+
+    a: str
+    b: str
+    feature: str
+    point: tuple[float, float]
+    normal: tuple[float, float]
+    gap: float
+    friction: float
+
+@final
+class ContactForce:
+    """The force that body `a` exerts on body `b` at one contact point, in newtons."""
+
+    a: str
+    b: str
+    feature: str
+    point: tuple[float, float]
+    normal: tuple[float, float]
+    normal_force: float
+    tangential_force: float
+    force: tuple[float, float]
+
+@final
+class Verdict:
+    status: str
+    stable: bool
+    forces: list[ContactForce]
+    names: list[str]
+    accelerations: NDArray[np.float64]
+    falling: list[str]
+    pivots: int
+    major_cycles: int
+    minor_cycles: int
+    residual: float
+    seconds: float
+
+@final
+class TestRecord:
+    size: int
+    pivots: int
+    seconds: float
+    stable: bool
+
+@final
+class Plan:
+    status: str
+    found: bool
+    order: list[str]
+    reached: list[str]
+    falls_next: list[str]
+    tests: int
+    pivots: int
+    test_seconds: float
+    seconds: float
+    records: list[TestRecord]
+    whole: Verdict | None
+
+@final
+class Generators:
+    """Equilibrium of the complete assembly: G f = -F with f >= 0 (statics as a linear program).
+
+    G is (3 movable bodies, n generators) in compressed columns; row 3 i + k is body `names[i]`'s
+    x force, y force and moment about its centroid (k = 0, 1, 2). `bodies[j]` holds the two movable
+    bodies that generator j acts on (-1 for a fixed one).
+    """
+
+    names: list[str]
+    indptr: NDArray[np.int64]
+    indices: NDArray[np.int64]
+    data: NDArray[np.float64]
+    applied: NDArray[np.float64]
+    inverse_mass: NDArray[np.float64]
+    bodies: NDArray[np.int64]
+    contact: NDArray[np.int64]
+
+@final
+class LcpSolution:
+    z: NDArray[np.float64]
+    w: NDArray[np.float64]
+    status: str
+    pivots: int
+    major_cycles: int
+    minor_cycles: int
+    residual: float
+    ray: NDArray[np.float64] | None
+    refactorisations: int
+
+def generators(scene: Scene) -> Generators: ...
+def check(scene: Scene, blocks: Sequence[str] | None = None) -> Verdict: ...
+def plan(
+    scene: Scene,
+    test: str | Callable[[list[int], int], tuple[bool, int]],
+    node_limit: int | None = None,
+    time_limit: float | None = None,
+    progress: Callable[[int, int, int], None] | None = None,
+) -> Plan:
+    """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
+    bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
+    `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
+    """
+
+def disassembly_graph(scene: Scene) -> list[tuple[list[str], bool]]:
+    """Every sub-assembly of a small scene with the verdict on it (stands or not)."""
+
+def lcp_solve(
+    indptr: NDArray[np.int64],
+    indices: NDArray[np.int64],
+    data: NDArray[np.float64],
+    q: NDArray[np.float64],
+    method: str,
+    start: tuple[NDArray[np.int64], NDArray[np.float64]] | None = None,
+    pivot_limit: int | None = None,
+) -> LcpSolution:
+    """M in compressed columns. `start`: (indices of the sub-problem, its solution z)."""
