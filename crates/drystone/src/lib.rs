@@ -1,1 +1,23 @@
-//! Placeholder.
+//! Contact dynamics of stacked rigid bodies, exact and with computation reuse.
+//!
+//! The data's way, and the reading order:
+//!
+//! ```text
+//! scene -> geometry -> contact -> formulate -> drystone_lcp -> check | plan
+//! ```
+//!
+//! - [`scene`]: gravity, friction and blocks, each checked when it is added.
+//! - [`geometry`]: convex polygons, their poses, areas and moments.
+//! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
+//!
+//! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
+
+pub mod contact;
+pub mod error;
+pub mod geometry;
+pub mod scene;
+mod suggest;
+
+pub use contact::{Contact, ContactId, ContactSet, Feature, find_contacts};
+pub use error::{FileError, SceneError};
+pub use scene::{Body, BodyOptions, Scene};

@@ -1,0 +1,59 @@
+//! Identities of contacts, stable across sub-assemblies.
+
+use std::fmt;
+
+/// Names a contact by the two blocks and the features that meet. It depends on this pair alone,
+/// so a contact keeps its identity in every sub-assembly that holds both blocks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ContactId {
+    /// Indices of the two blocks, the lower first.
+    pub bodies: [usize; 2],
+    /// What meets there.
+    pub feature: Feature,
+}
+
+/// What meets at a contact point. Face k runs from vertex k to the next one, counter-clockwise;
+/// "a" is the block with the lower index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Feature {
+    /// One end of the segment that two faces share.
+    Faces {
+        /// Face of a.
+        a: usize,
+        /// Face of b.
+        b: usize,
+        /// 0 for the end met first along a's face, 1 for the other.
+        end: usize,
+    },
+    /// A corner of a on a face of b.
+    CornerOfA {
+        /// Corner of a.
+        a: usize,
+        /// Face of b.
+        b: usize,
+    },
+    /// A corner of b on a face of a.
+    CornerOfB {
+        /// Face of a.
+        a: usize,
+        /// Corner of b.
+        b: usize,
+    },
+}
+
+impl fmt::Display for Feature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Faces { a, b, end } => write!(f, "a:face {a} / b:face {b} / end {end}"),
+            Self::CornerOfA { a, b } => write!(f, "a:corner {a} / b:face {b}"),
+            Self::CornerOfB { a, b } => write!(f, "a:face {a} / b:corner {b}"),
+        }
+    }
+}
+
+impl fmt::Display for ContactId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [a, b] = self.bodies;
+        write!(f, "a = {a}, b = {b}: {}", self.feature)
+    }
+}

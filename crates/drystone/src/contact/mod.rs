@@ -1,0 +1,115 @@
+//! From geometry to contacts: which blocks touch, where, and along which normal.
+//!
+//! A broad phase (bounding boxes in a tree) finds the pairs that may touch, a narrow phase
+//! (separating axes and clipping) says how each of them does.
+//!
+//! **Tolerance.** Two blocks touch when the greatest separation over their faces lies within plus
+//! or minus the contact tolerance, in metres. By default it is 1e-6 of the narrower block's width:
+//! a millionth of a block is far above the rounding of coordinates (about 1e-13 of a scene some
+//! hundred blocks wide) and far below any gap that is meant. It is taken pair by pair, so that the
+//! contacts of two blocks depend on these two alone. [`Scene::with_contact_tolerance`] sets one
+//! value for all instead, for scenes whose coordinates were rounded.
+
+mod broad_phase;
+mod id;
+mod narrow_phase;
+
+pub use id::{ContactId, Feature};
+
+use crate::error::SceneError;
+use crate::geometry::Vector;
+use crate::scene::{Body, Scene};
+use narrow_phase::{Outline, Touch};
+
+/// Default contact tolerance as a share of the narrower block's width.
+pub const RELATIVE_TOLERANCE: f64 = 1e-6;
+
+/// One point through which two blocks press on each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// Which features of which blocks meet here.
+    pub id: ContactId,
+    /// Indices of the two blocks, the lower first.
+    pub bodies: [usize; 2],
+    /// Where they meet, world coordinates, metres: halfway across the gap.
+    pub point: [f64; 2],
+    /// Unit vector from `bodies[0]` into `bodies[1]`.
+    pub normal: [f64; 2],
+    /// Distance of the two surfaces here, metres: negative where they overlap within tolerance.
+    pub gap: f64,
+    /// Coefficient of friction of the pair.
+    pub friction: f64,
+}
+
+/// Every contact of a scene, in the order of (body, body, feature).
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ContactSet {
+    /// Contact points. A face on a face has two, the ends of the shared segment; a corner on a
+    /// face has one.
+    pub contacts: Vec<Contact>,
+    /// Pairs that meet at a corner of each and nowhere else. Such a touch has no normal of its
+    /// own; it bears nothing, so that a structure is never said to stand because of it.
+    pub corner_touches: Vec<[usize; 2]>,
+    /// Pairs that the broad phase handed to the narrow phase: a measure of the work done.
+    pub candidate_pairs: usize,
+}
+
+/// Finds all contacts between the blocks of a scene.
+///
+/// Two fixed blocks are never in contact and may overlap: a ground may be built of several pieces.
+/// Any other overlap by more than the tolerance is [`SceneError::Overlap`]; the deepest is named.
+pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
+    let bodies = scene.bodies();
+    let pairs = broad_phase::candidate_pairs(scene);
+    let outlines: Vec<Outline> = bodies.iter().map(Outline::of).collect();
+    let mut found = ContactSet {
+        candidate_pairs: pairs.len(),
+        ..ContactSet::default()
+    };
+    let mut deepest: Option<([usize; 2], f64)> = None;
+    for &[a, b] in &pairs {
+        let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
+        let origin = Vector::from_array(bodies[a].pose.position);
+        let offset = Vector::from_array(bodies[b].pose.position) - origin;
+        match narrow_phase::touch(&outlines[a], &outlines[b], offset, tolerance) {
+            Touch::Apart => {}
+            Touch::AtCorners => found.corner_touches.push([a, b]),
+            Touch::Overlap { depth } => {
+                if deepest.is_none_or(|(_, most)| depth > most) {
+                    deepest = Some(([a, b], depth));
+                }
+            }
+            Touch::At(points) => found.contacts.extend(points.into_iter().map(|p| Contact {
+                id: ContactId {
+                    bodies: [a, b],
+                    feature: p.feature,
+                },
+                bodies: [a, b],
+                point: (origin + p.point).to_array(),
+                normal: p.normal.to_array(),
+                gap: p.gap,
+                friction: scene.pair_friction(a, b),
+            })),
+        }
+    }
+    match deepest {
+        None => Ok(found),
+        Some(([a, b], depth)) => Err(SceneError::Overlap {
+            a: bodies[a].name.clone(),
+            b: bodies[b].name.clone(),
+            depth,
+            tolerance: pair_tolerance(scene, &bodies[a], &bodies[b]),
+        }),
+    }
+}
+
+/// The contact tolerance of a pair, metres.
+fn pair_tolerance(scene: &Scene, a: &Body, b: &Body) -> f64 {
+    tolerance_of(scene, a).min(tolerance_of(scene, b))
+}
+
+/// The largest contact tolerance a block can have in any pair, metres.
+fn tolerance_of(scene: &Scene, body: &Body) -> f64 {
+    let derived = RELATIVE_TOLERANCE * body.polygon.width();
+    scene.contact_tolerance().unwrap_or(derived)
+}

@@ -1,0 +1,283 @@
+//! Narrow phase: how two convex polygons touch.
+//!
+//! By the separating axis theorem two convex polygons are disjoint exactly when the line of some
+//! face of one has the other wholly on its outer side. The face with the greatest separation is
+//! the *reference*; the face of the other polygon that looks most against it is the *incident*
+//! one. The incident face, clipped to the span of the reference face, gives the contact points.
+//! The two polygons may swap roles under rounding; identities and points do not depend on that.
+//!
+//! ```text
+//!             i0 ______________________ i1      incident face
+//!        r0 ______|_________|______ r1          reference face, normal up
+//!               low        ...  high            ends of the shared span
+//! ```
+
+use super::id::Feature;
+use crate::geometry::Vector;
+use crate::scene::Body;
+
+/// How two polygons touch.
+pub(super) enum Touch {
+    /// Further apart than the tolerance.
+    Apart,
+    /// A corner of each, and nothing else.
+    AtCorners,
+    /// Deeper into each other than the tolerance.
+    Overlap {
+        /// The shortest way out, metres.
+        depth: f64,
+    },
+    /// At one point or two.
+    At(Vec<TouchPoint>),
+}
+
+/// A contact point relative to the first polygon's centroid.
+pub(super) struct TouchPoint {
+    pub feature: Feature,
+    pub point: Vector,
+    /// Unit vector from the first polygon into the second.
+    pub normal: Vector,
+    pub gap: f64,
+}
+
+/// A block's corners turned into world axes but still relative to its centroid (so that nothing
+/// is lost far from the world's origin), with the outward unit normal of each face.
+pub(super) struct Outline {
+    vertices: Vec<Vector>,
+    normals: Vec<Vector>,
+}
+
+impl Outline {
+    pub fn of(body: &Body) -> Self {
+        let turned = body.polygon.vertices().iter().map(|&v| body.pose.rotate(v));
+        let vertices: Vec<Vector> = turned.collect();
+        let n = vertices.len();
+        let normal = |k: usize| {
+            -(vertices[(k + 1) % n] - vertices[k])
+                .normalize_or_zero()
+                .perp()
+        };
+        let normals = (0..n).map(normal).collect();
+        Self { vertices, normals }
+    }
+
+    fn next(&self, k: usize) -> usize {
+        (k + 1) % self.vertices.len()
+    }
+}
+
+/// How `a` and `b` touch, where `b`'s centroid is `offset` from `a`'s.
+pub(super) fn touch(a: &Outline, b: &Outline, offset: Vector, tolerance: f64) -> Touch {
+    let (face_a, separation_a) = greatest_separation(a, b, offset);
+    let (face_b, separation_b) = greatest_separation(b, a, -offset);
+    let separation = separation_a.max(separation_b);
+    if separation > tolerance {
+        return Touch::Apart;
+    }
+    if separation < -tolerance {
+        return Touch::Overlap { depth: -separation };
+    }
+    if separation_a >= separation_b {
+        let span = Span::clip(a, face_a, b, offset);
+        span.touch(Role::ReferenceIsA, tolerance, Vector::ZERO)
+    } else {
+        let span = Span::clip(b, face_b, a, -offset);
+        span.touch(Role::ReferenceIsB, tolerance, offset)
+    }
+}
+
+/// The face of `reference` furthest from all of `other`, and that distance (negative: overlap
+/// along this normal). Of equal faces the first.
+fn greatest_separation(reference: &Outline, other: &Outline, offset: Vector) -> (usize, f64) {
+    let mut best = (0, f64::NEG_INFINITY);
+    for (face, (corner, normal)) in reference
+        .vertices
+        .iter()
+        .zip(&reference.normals)
+        .enumerate()
+    {
+        let shift = offset - *corner;
+        let nearest = |v: &Vector| normal.dot(*v + shift);
+        let separation = other
+            .vertices
+            .iter()
+            .map(nearest)
+            .fold(f64::INFINITY, f64::min);
+        if separation > best.1 {
+            best = (face, separation);
+        }
+    }
+    best
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Role {
+    ReferenceIsA,
+    ReferenceIsB,
+}
+
+/// One end of the shared span: always a corner of one of the two faces.
+#[derive(Clone, Copy)]
+struct End {
+    /// Coordinate along the reference face, from r0, metres.
+    along: f64,
+    /// Height of the incident face above the reference face, metres.
+    gap: f64,
+    /// The corner's place, relative to the reference polygon's centroid.
+    corner: Vector,
+    /// The incident polygon's corner number, if it is one of its.
+    incident: Option<usize>,
+}
+
+/// The part of the incident face above the reference face.
+struct Span {
+    reference_face: usize,
+    incident_face: usize,
+    normal: Vector,
+    /// Length of the reference face, metres.
+    length: f64,
+    low: End,
+    high: End,
+    /// Least distance between a corner of one face and a corner of the other, metres.
+    corner_distance: f64,
+}
+
+impl Span {
+    /// Clips the incident face of `other` (at `offset`) to the reference face's span.
+    fn clip(reference: &Outline, face: usize, other: &Outline, offset: Vector) -> Self {
+        let normal = reference.normals[face];
+        let [r0, r1] = [face, reference.next(face)].map(|k| reference.vertices[k]);
+        let incident_face = most_opposed(other, normal);
+        // Faces run counter-clockwise, so the incident one runs against the reference.
+        let [k0, k1] = [other.next(incident_face), incident_face];
+        let [i0, i1] = [k0, k1].map(|k| other.vertices[k] + offset);
+
+        let tangent = normal.perp();
+        let length = tangent.dot(r1 - r0);
+        let [s0, s1] = [i0, i1].map(|v| tangent.dot(v - r0));
+        let [h0, h1] = [i0, i1].map(|v| normal.dot(v - r0));
+        let gap_at = |s: f64| {
+            if s1 > s0 {
+                h0 + (h1 - h0) * ((s - s0) / (s1 - s0))
+            } else {
+                h0
+            }
+        };
+
+        let incident = |along, gap, corner, k| End {
+            along,
+            gap,
+            corner,
+            incident: Some(k),
+        };
+        let own = |along, corner| End {
+            along,
+            gap: gap_at(along),
+            corner,
+            incident: None,
+        };
+        let low = if s0 >= 0.0 {
+            incident(s0, h0, i0, k0)
+        } else {
+            own(0.0, r0)
+        };
+        let high = if s1 <= length {
+            incident(s1, h1, i1, k1)
+        } else {
+            own(length, r1)
+        };
+        let corner_distance = [r0, r1]
+            .iter()
+            .flat_map(|r| [i0.distance(*r), i1.distance(*r)])
+            .fold(f64::INFINITY, f64::min);
+        Self {
+            reference_face: face,
+            incident_face,
+            normal,
+            length,
+            low,
+            high,
+            corner_distance,
+        }
+    }
+
+    /// Turns the span into contact points. `origin` is the reference polygon's centroid.
+    fn touch(&self, role: Role, tolerance: f64, origin: Vector) -> Touch {
+        let closed = |end: &End| end.gap <= tolerance;
+        let shared = self.high.along - self.low.along;
+        if closed(&self.low) && closed(&self.high) && shared > tolerance {
+            let ends = match role {
+                Role::ReferenceIsA => [self.low, self.high],
+                Role::ReferenceIsB => [self.high, self.low],
+            };
+            let numbered = ends.into_iter().enumerate();
+            let points = numbered.map(|(k, end)| {
+                let (r, i) = (self.reference_face, self.incident_face);
+                let feature = match role {
+                    Role::ReferenceIsA => Feature::Faces { a: r, b: i, end: k },
+                    Role::ReferenceIsB => Feature::Faces { a: i, b: r, end: k },
+                };
+                self.point(role, feature, end, origin)
+            });
+            return Touch::At(points.collect());
+        }
+        let lowest = if self.high.gap < self.low.gap {
+            self.high
+        } else {
+            self.low
+        };
+        let inside = lowest.along > tolerance && lowest.along < self.length - tolerance;
+        match lowest.incident {
+            Some(corner) if inside && closed(&lowest) => {
+                let feature = match role {
+                    Role::ReferenceIsA => Feature::CornerOfB {
+                        a: self.reference_face,
+                        b: corner,
+                    },
+                    Role::ReferenceIsB => Feature::CornerOfA {
+                        a: corner,
+                        b: self.reference_face,
+                    },
+                };
+                Touch::At(vec![self.point(role, feature, lowest, origin)])
+            }
+            // Each of the two distances along and across the face may use the whole tolerance.
+            _ if self.corner_distance <= 2.0 * tolerance => Touch::AtCorners,
+            _ => Touch::Apart,
+        }
+    }
+
+    /// The point halfway across the gap.
+    fn point(&self, role: Role, feature: Feature, end: End, origin: Vector) -> TouchPoint {
+        // An incident corner lies `gap` above the reference face, a reference corner as far below
+        // the incident one.
+        let half = if end.incident.is_some() {
+            -0.5 * end.gap
+        } else {
+            0.5 * end.gap
+        };
+        let point = origin + end.corner + half * self.normal;
+        let normal = match role {
+            Role::ReferenceIsA => self.normal,
+            Role::ReferenceIsB => -self.normal,
+        };
+        TouchPoint {
+            feature,
+            point,
+            normal,
+            gap: end.gap,
+        }
+    }
+}
+
+/// The face of `outline` whose normal looks most against `direction`. Of equal faces the first.
+fn most_opposed(outline: &Outline, direction: Vector) -> usize {
+    let mut best = (0, f64::INFINITY);
+    for (face, normal) in outline.normals.iter().enumerate() {
+        let alignment = normal.dot(direction);
+        if alignment < best.1 {
+            best = (face, alignment);
+        }
+    }
+    best.0
+}

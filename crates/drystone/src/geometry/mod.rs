@@ -1,0 +1,8 @@
+//! Shapes and where they stand. No physics beyond area and its moments, no names of blocks.
+
+mod polygon;
+mod pose;
+
+pub use parry2d_f64::math::Vector;
+pub use polygon::{Polygon, ShapeFault};
+pub use pose::Pose;

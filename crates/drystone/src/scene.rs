@@ -1,0 +1,299 @@
+//! A scene: gravity, friction and rigid blocks, each checked when it is added.
+
+use crate::error::SceneError;
+use crate::geometry::{Polygon, Pose};
+use crate::suggest::nearest;
+use std::collections::HashMap;
+
+/// How a block is called and what it is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyOptions {
+    /// The block's name; without one it is "b" and its index.
+    pub name: Option<String>,
+    /// Mass per area, kg/m^2.
+    pub density: f64,
+    /// The block's own coefficient of friction; without one the scene's counts.
+    pub friction: Option<f64>,
+    /// A fixed block bears any load and never moves.
+    pub fixed: bool,
+}
+
+impl Default for BodyOptions {
+    fn default() -> Self {
+        Self {
+            name: None,
+            density: 1.0,
+            friction: None,
+            fixed: false,
+        }
+    }
+}
+
+/// One rigid convex block.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    /// Unique in the scene.
+    pub name: String,
+    /// Outline in the body's frame: the centroid is the origin.
+    pub polygon: Polygon,
+    /// Width and height, if the block was given as a box.
+    pub box_size: Option<[f64; 2]>,
+    /// Where the frame stands: `position` is the centroid's place in the world.
+    pub pose: Pose,
+    /// Mass per area, kg/m^2.
+    pub density: f64,
+    /// The block's own coefficient of friction, if it has one.
+    pub friction: Option<f64>,
+    /// Whether the block is held in place.
+    pub fixed: bool,
+}
+
+impl Body {
+    /// Mass in kilograms (also of a fixed block, which never uses it).
+    pub fn mass(&self) -> f64 {
+        self.density * self.polygon.area()
+    }
+
+    /// Moment of inertia about the centroid, kg m^2.
+    pub fn inertia(&self) -> f64 {
+        self.density * self.polygon.second_moment()
+    }
+
+    /// The corners in the world, metres, counter-clockwise.
+    pub fn vertices(&self) -> Vec<[f64; 2]> {
+        let corners = self.polygon.vertices().iter();
+        corners
+            .map(|&v| self.pose.transform(v).to_array())
+            .collect()
+    }
+}
+
+/// Blocks under gravity. Lengths are metres, masses kilograms, angles radians.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    gravity: [f64; 2],
+    friction: f64,
+    contact_tolerance: Option<f64>,
+    bodies: Vec<Body>,
+    index: HashMap<String, usize>,
+}
+
+impl Scene {
+    /// An empty scene. `gravity` in m/s^2; `friction` is the coefficient of every block without
+    /// one of its own.
+    pub fn new(gravity: [f64; 2], friction: f64) -> Result<Self, SceneError> {
+        finite("the scene's gravity[0]", gravity[0])?;
+        finite("the scene's gravity[1]", gravity[1])?;
+        check_friction("the scene's friction", friction)?;
+        Ok(Self {
+            gravity,
+            friction,
+            contact_tolerance: None,
+            bodies: Vec::new(),
+            index: HashMap::new(),
+        })
+    }
+
+    /// The same scene with one contact tolerance, in metres, for every pair of blocks, instead of
+    /// the default that [`crate::contact`] derives from the blocks' sizes.
+    pub fn with_contact_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
+        positive("the scene's contact_tolerance", tolerance)?;
+        self.contact_tolerance = Some(tolerance);
+        Ok(self)
+    }
+
+    /// Adds a rectangle with the given centre and size (width, height), turned by `angle`.
+    /// Returns the block's index.
+    pub fn add_box(
+        &mut self,
+        center: [f64; 2],
+        size: [f64; 2],
+        angle: f64,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let name = self.free_name(&options)?;
+        for axis in 0..2 {
+            finite(&format!("block \"{name}\": center[{axis}]"), center[axis])?;
+            positive(&format!("block \"{name}\": size[{axis}]"), size[axis])?;
+        }
+        finite(&format!("block \"{name}\": angle"), angle)?;
+        let pose = Pose {
+            position: center,
+            angle,
+        };
+        self.push(name, Polygon::rectangle(size), Some(size), pose, options)
+    }
+
+    /// Adds a convex polygon by its corners in the world, counter-clockwise, in metres. Corners on
+    /// a straight line are merged. Returns the block's index.
+    pub fn add_polygon(
+        &mut self,
+        vertices: &[[f64; 2]],
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let frame = Pose {
+            position: [0.0, 0.0],
+            angle: 0.0,
+        };
+        self.add_placed_polygon(vertices, frame, options)
+    }
+
+    /// Adds a convex polygon by its corners in a frame, and that frame's pose. The body's own
+    /// frame keeps the angle and moves its origin to the centroid.
+    pub fn add_placed_polygon(
+        &mut self,
+        vertices: &[[f64; 2]],
+        frame: Pose,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let name = self.free_name(&options)?;
+        for axis in 0..2 {
+            finite(
+                &format!("block \"{name}\": position[{axis}]"),
+                frame.position[axis],
+            )?;
+        }
+        finite(&format!("block \"{name}\": angle"), frame.angle)?;
+        let (polygon, centroid) =
+            Polygon::from_vertices(vertices).map_err(|fault| SceneError::BadShape {
+                body: name.clone(),
+                fault,
+            })?;
+        let position = frame.transform(centroid.into()).to_array();
+        self.push(name, polygon, None, Pose { position, ..frame }, options)
+    }
+
+    fn push(
+        &mut self,
+        name: String,
+        polygon: Polygon,
+        box_size: Option<[f64; 2]>,
+        pose: Pose,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let BodyOptions {
+            density,
+            friction,
+            fixed,
+            ..
+        } = options;
+        positive(&format!("block \"{name}\": density"), density)?;
+        if let Some(friction) = friction {
+            check_friction(&format!("block \"{name}\": friction"), friction)?;
+        }
+        let body = Body {
+            name,
+            polygon,
+            box_size,
+            pose,
+            density,
+            friction,
+            fixed,
+        };
+        positive(&format!("block \"{}\": mass", body.name), body.mass())?;
+        positive(
+            &format!("block \"{}\": moment of inertia", body.name),
+            body.inertia(),
+        )?;
+        let index = self.bodies.len();
+        self.index.insert(body.name.clone(), index);
+        self.bodies.push(body);
+        Ok(index)
+    }
+
+    /// The given name if it is free, or a default one: "b" and the index, with a dash and a number
+    /// behind it when a block has been given just that name.
+    fn free_name(&self, options: &BodyOptions) -> Result<String, SceneError> {
+        if let Some(name) = &options.name {
+            return match self.index.get(name) {
+                Some(&index) => Err(SceneError::DuplicateName {
+                    name: name.clone(),
+                    index,
+                }),
+                None if name.is_empty() => Err(SceneError::EmptyName),
+                None => Ok(name.clone()),
+            };
+        }
+        let plain = format!("b{}", self.bodies.len());
+        let mut name = plain.clone();
+        let mut attempt = 2;
+        while self.index.contains_key(&name) {
+            name = format!("{plain}-{attempt}");
+            attempt += 1;
+        }
+        Ok(name)
+    }
+
+    /// Every block, in the order they were added.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Index of the block with this name.
+    pub fn index_of(&self, name: &str) -> Result<usize, SceneError> {
+        self.index
+            .get(name)
+            .copied()
+            .ok_or_else(|| SceneError::UnknownName {
+                name: name.to_owned(),
+                nearest: nearest(name, self.bodies.iter().map(|body| body.name.as_str())),
+            })
+    }
+
+    /// Acceleration of gravity, m/s^2.
+    pub fn gravity(&self) -> [f64; 2] {
+        self.gravity
+    }
+
+    /// The coefficient of friction of a block without one of its own.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    /// The one contact tolerance for every pair, metres, if the scene sets it.
+    pub fn contact_tolerance(&self) -> Option<f64> {
+        self.contact_tolerance
+    }
+
+    /// Coefficient of friction between two blocks: the smaller of theirs. A contact then never
+    /// claims more grip than either of its surfaces allows, so a verdict errs on the safe side.
+    pub fn pair_friction(&self, a: usize, b: usize) -> f64 {
+        let own = |i: usize| self.bodies[i].friction.unwrap_or(self.friction);
+        own(a).min(own(b))
+    }
+}
+
+fn finite(place: &str, value: f64) -> Result<(), SceneError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(SceneError::NotFinite {
+            place: place.to_owned(),
+            value,
+        })
+    }
+}
+
+fn positive(place: &str, value: f64) -> Result<(), SceneError> {
+    finite(place, value)?;
+    if value > 0.0 {
+        Ok(())
+    } else {
+        Err(SceneError::NotPositive {
+            place: place.to_owned(),
+            value,
+        })
+    }
+}
+
+fn check_friction(place: &str, value: f64) -> Result<(), SceneError> {
+    finite(place, value)?;
+    if value >= 0.0 {
+        Ok(())
+    } else {
+        Err(SceneError::NegativeFriction {
+            place: place.to_owned(),
+            value,
+        })
+    }
+}
