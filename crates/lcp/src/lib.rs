@@ -1,1 +1,46 @@
-//! Placeholder.
+//! Linear complementarity problems, solved by pivoting, with computation reuse.
+//!
+//! Given a matrix `M` (n x n) and a vector `q` (n), find `z` and `w` with
+//!
+//! ```text
+//! w = M z + q,    0 <= z  complementary to  w >= 0    (so z' w = 0)
+//! ```
+//!
+//! Read in this order: [`Problem`] (what is solved), [`Solution`] and [`Status`] (what comes back),
+//! [`Settings`] (every tolerance), [`Solver`] (Dantzig's principal pivoting on a masked problem, the object
+//! that keeps its factor between solves), [`Start`] (reuse of a sub-problem's solution), then the methods
+//! [`Dantzig`] behind one trait, [`Method`].
+//!
+//! ```
+//! use drystone_lcp::{Dantzig, Method, Problem, Settings, Status};
+//!
+//! let problem = Problem::from_dense(&[2.0, 1.0, 1.0, 2.0], vec![-5.0, -6.0])?;
+//! let solution = Dantzig.solve(&problem, None, &Settings::default())?;
+//! assert_eq!(solution.status, Status::Solved);
+//! assert!((solution.z[0] - 4.0 / 3.0).abs() < 1e-12 && (solution.z[1] - 7.0 / 3.0).abs() < 1e-12);
+//! # Ok::<(), drystone_lcp::LcpError>(())
+//! ```
+
+mod basis;
+mod counts;
+mod error;
+pub mod factor;
+mod matrix;
+mod pivot;
+mod problem;
+mod ratio;
+mod reuse;
+mod scaling;
+mod settings;
+mod solution;
+mod solver;
+
+pub use counts::Counts;
+pub use error::LcpError;
+pub use matrix::SparseColumns;
+pub use pivot::{Dantzig, Method};
+pub use problem::Problem;
+pub use reuse::{Start, StartError};
+pub use settings::Settings;
+pub use solution::{Solution, Status, residual};
+pub use solver::{Snapshot, Solver};

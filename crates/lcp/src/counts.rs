@@ -1,0 +1,27 @@
+//! Work done: exact, machine independent, what the tests gate on.
+
+/// Counts of one solve, or of a [`Solver`](crate::Solver) since it was made.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Major cycles: rows driven to feasibility. Each ends with one pivot (or with a ray).
+    pub major_cycles: usize,
+    /// Minor cycles: pivots inside a major cycle, before the one that ends it.
+    pub minor_cycles: usize,
+    /// All pivots; what Table I of Loomis and Balkcom counts.
+    pub pivots: usize,
+    /// Times the active block was factored from scratch because updates had lost accuracy.
+    pub refactorisations: usize,
+}
+
+impl std::ops::Sub for Counts {
+    type Output = Self;
+
+    fn sub(self, earlier: Self) -> Self {
+        Self {
+            major_cycles: self.major_cycles - earlier.major_cycles,
+            minor_cycles: self.minor_cycles - earlier.minor_cycles,
+            pivots: self.pivots - earlier.pivots,
+            refactorisations: self.refactorisations - earlier.refactorisations,
+        }
+    }
+}

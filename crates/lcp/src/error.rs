@@ -1,0 +1,69 @@
+//! What can be wrong with the input. What can go wrong in a solve is a [`Status`](crate::Status).
+
+use crate::reuse::StartError;
+
+/// Bad input to this crate. Every message names the offending entry and what to do about it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LcpError {
+    /// `M` and `q` do not fit together.
+    #[error("M is {rows} x {columns} but q has {q} entries: M must be square and as long as q")]
+    Shape {
+        /// Rows of `M`.
+        rows: usize,
+        /// Columns of `M`.
+        columns: usize,
+        /// Length of `q`.
+        q: usize,
+    },
+    /// The compressed-column arrays of `M` do not describe a matrix.
+    #[error("M is not a valid compressed-column matrix: {reason}")]
+    Structure {
+        /// What is wrong with the arrays.
+        reason: String,
+    },
+    /// A NaN or an infinity in `M`.
+    #[error("M[{row}, {column}] is {value}: every entry must be finite")]
+    MatrixNotFinite {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// A NaN or an infinity in `q`.
+    #[error("q[{index}] is {value}: every entry must be finite")]
+    VectorNotFinite {
+        /// Index of the entry.
+        index: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// Dantzig's method was given a matrix that is not symmetric.
+    #[error(
+        "M is not symmetric: M[{row}, {column}] = {value} but M[{column}, {row}] = {mirror}; \
+         symmetrise it, or use Lemke's method"
+    )]
+    NotSymmetric {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// Its mirror image.
+        mirror: f64,
+    },
+    /// Dantzig's method met negative curvature: `M` is not positive semidefinite.
+    #[error("M is not positive semidefinite: the curvature at index {index} is {curvature:e}; use Lemke's method")]
+    NotSemidefinite {
+        /// Index of the row being driven to feasibility.
+        index: usize,
+        /// `y' M y` of the direction y found there (scaled so that M has a unit diagonal).
+        curvature: f64,
+    },
+    /// A start that cannot be used.
+    #[error("the start cannot be used: {0}")]
+    Start(#[from] StartError),
+}

@@ -1,0 +1,139 @@
+//! Dense `L D L'` of the active block, rows in the order in which they entered.
+
+use super::{ActiveFactor, LOST, RankOne, SingularBlock};
+use crate::matrix::SparseColumns;
+
+/// Unit lower triangular `L` by rows and diagonal `D`. Insertion appends a row, k^2 / 2 operations for k active rows;
+/// removal of the row at position p updates the (k - p)^2 / 2 entries below it.
+#[derive(Debug, Clone)]
+pub struct DenseFactor {
+    /// Matrix index of every factor row, in order of entry.
+    order: Vec<usize>,
+    /// Row r holds its r entries left of the diagonal.
+    l: Vec<Vec<f64>>,
+    d: Vec<f64>,
+    /// Factor row of every matrix index, or `OUT`.
+    place: Vec<usize>,
+}
+
+const OUT: usize = usize::MAX;
+
+impl DenseFactor {
+    /// An empty active set within a matrix of `n` rows.
+    pub fn new(n: usize) -> Self {
+        Self { order: Vec::new(), l: Vec::new(), d: Vec::new(), place: vec![OUT; n] }
+    }
+
+    fn gather(&self, x: &[f64]) -> Vec<f64> {
+        self.order.iter().map(|&i| x[i]).collect()
+    }
+
+    /// `L y = b` in place.
+    fn forward(&self, b: &mut [f64]) {
+        for (r, row) in self.l.iter().enumerate() {
+            let dot: f64 = row.iter().zip(&b[..r]).map(|(l, y)| l * y).sum();
+            b[r] -= dot;
+        }
+    }
+
+    /// `L' x = b` in place.
+    fn backward(&self, b: &mut [f64]) {
+        for r in (0..self.l.len()).rev() {
+            let x = b[r];
+            for (l, y) in self.l[r].iter().zip(&mut b[..r]) {
+                *y -= l * x;
+            }
+        }
+    }
+
+    /// `L D L' += alpha w w'` for the rows from `first` on; `w` starts there.
+    fn rank_one(&mut self, first: usize, w: &mut [f64], alpha: f64) {
+        let mut change = RankOne { alpha };
+        let mut betas = Vec::with_capacity(w.len());
+        for r in first..self.l.len() {
+            let mut wr = w[r - first];
+            for ((l, &wj), &beta) in self.l[r][first..].iter_mut().zip(&w[..r - first]).zip(&betas) {
+                wr -= wj * *l;
+                *l += beta * wr;
+            }
+            w[r - first] = wr;
+            let (d, beta) = change.pass(self.d[r], wr);
+            self.d[r] = d;
+            betas.push(beta);
+        }
+    }
+}
+
+impl ActiveFactor for DenseFactor {
+    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<(), SingularBlock> {
+        let mut row = vec![0.0; self.order.len()];
+        let (rows, values) = m.column(i);
+        let mut diagonal = 0.0;
+        for (&j, &value) in rows.iter().zip(values) {
+            if j == i {
+                diagonal = value;
+            } else if self.place[j] != OUT {
+                row[self.place[j]] = value;
+            }
+        }
+        self.forward(&mut row);
+        let mut pivot = diagonal;
+        for (y, d) in row.iter_mut().zip(&self.d) {
+            let l = *y / d;
+            pivot -= l * *y;
+            *y = l;
+        }
+        if pivot.is_nan() || pivot <= LOST * diagonal {
+            return Err(SingularBlock { row: i, pivot });
+        }
+        self.place[i] = self.order.len();
+        self.order.push(i);
+        self.l.push(row);
+        self.d.push(pivot);
+        Ok(())
+    }
+
+    fn remove(&mut self, i: usize) {
+        let p = std::mem::replace(&mut self.place[i], OUT);
+        if p == OUT {
+            return;
+        }
+        self.order.remove(p);
+        self.l.remove(p);
+        let alpha = self.d.remove(p);
+        let mut w: Vec<f64> = self.l[p..].iter_mut().map(|row| row.remove(p)).collect();
+        self.rank_one(p, &mut w, alpha);
+        for (place, &index) in self.order.iter().enumerate().skip(p) {
+            self.place[index] = place;
+        }
+    }
+
+    fn solve(&self, x: &mut [f64]) {
+        let mut b = self.gather(x);
+        self.forward(&mut b);
+        for (value, d) in b.iter_mut().zip(&self.d) {
+            *value /= d;
+        }
+        self.backward(&mut b);
+        for (&i, value) in self.order.iter().zip(b) {
+            x[i] = value;
+        }
+    }
+
+    fn clear(&mut self) {
+        for &i in &self.order {
+            self.place[i] = OUT;
+        }
+        self.order.clear();
+        self.l.clear();
+        self.d.clear();
+    }
+
+    fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    fn entries(&self) -> usize {
+        self.l.iter().map(Vec::len).sum::<usize>() + self.d.len()
+    }
+}

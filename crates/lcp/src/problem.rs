@@ -1,0 +1,94 @@
+//! The problem: `M` and `q`, validated once and fixed during a solve.
+
+use crate::{error::LcpError, matrix::SparseColumns};
+
+/// `w = M z + q`, `0 <= z` complementary to `w >= 0`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    m: SparseColumns,
+    q: Vec<f64>,
+}
+
+/// Two mirrored entries of a symmetric matrix may differ by this much, relative to `sqrt(M_ii M_jj)`: what
+/// rounding leaves in a product `G' M^-1 G` that was summed in two different orders.
+const SYMMETRY: f64 = 1e-12;
+
+impl Problem {
+    /// Takes a sparse matrix (n x n) and a vector (n).
+    ///
+    /// # Errors
+    /// [`LcpError::Shape`] if they do not fit, [`LcpError::VectorNotFinite`] for a NaN or infinity in `q`.
+    pub fn new(m: SparseColumns, q: Vec<f64>) -> Result<Self, LcpError> {
+        if m.len() != q.len() {
+            return Err(LcpError::Shape { rows: m.len(), columns: m.len(), q: q.len() });
+        }
+        if let Some(index) = q.iter().position(|value| !value.is_finite()) {
+            return Err(LcpError::VectorNotFinite { index, value: q[index] });
+        }
+        Ok(Self { m, q })
+    }
+
+    /// Takes a dense matrix, n x n in row-major order.
+    ///
+    /// # Errors
+    /// As [`Self::new`] and [`SparseColumns::from_dense`].
+    pub fn from_dense(m: &[f64], q: Vec<f64>) -> Result<Self, LcpError> {
+        if m.len() != q.len() * q.len() {
+            let columns = m.len().checked_div(q.len()).unwrap_or(0);
+            return Err(LcpError::Shape { rows: q.len(), columns, q: q.len() });
+        }
+        Self::new(SparseColumns::from_dense(m)?, q)
+    }
+
+    /// Number of complementary pairs, n.
+    pub fn len(&self) -> usize {
+        self.q.len()
+    }
+
+    /// Whether there are no pairs.
+    pub fn is_empty(&self) -> bool {
+        self.q.is_empty()
+    }
+
+    /// The matrix `M`.
+    pub fn m(&self) -> &SparseColumns {
+        &self.m
+    }
+
+    /// The vector `q`.
+    pub fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// `M z + q`.
+    pub fn w(&self, z: &[f64]) -> Vec<f64> {
+        self.m.multiply_add(z, &self.q)
+    }
+
+    /// The principal sub-problem on `indices` (Theorem 1 of Loomis and Balkcom starts from its solution).
+    pub fn principal(&self, indices: &[usize]) -> Self {
+        Self { m: self.m.principal(indices), q: indices.iter().map(|&i| self.q[i]).collect() }
+    }
+
+    /// Checks that `M` is symmetric with a diagonal that is not negative, as principal pivoting needs.
+    ///
+    /// # Errors
+    /// [`LcpError::NotSymmetric`] or [`LcpError::NotSemidefinite`], naming the first offending entry.
+    pub fn require_symmetric(&self) -> Result<(), LcpError> {
+        let diagonal: Vec<f64> = (0..self.len()).map(|i| self.m.get(i, i)).collect();
+        if let Some(index) = diagonal.iter().position(|&value| value < 0.0) {
+            return Err(LcpError::NotSemidefinite { index, curvature: diagonal[index] });
+        }
+        for column in 0..self.len() {
+            let (rows, values) = self.m.column(column);
+            for (&row, &value) in rows.iter().zip(values) {
+                let mirror = self.m.get(column, row);
+                let size = (diagonal[row] * diagonal[column]).sqrt().max(value.abs());
+                if (value - mirror).abs() > SYMMETRY * size {
+                    return Err(LcpError::NotSymmetric { row, column, value, mirror });
+                }
+            }
+        }
+        Ok(())
+    }
+}

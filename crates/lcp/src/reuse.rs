@@ -1,0 +1,100 @@
+//! Computation reuse: a solve started from the solution of a principal sub-problem.
+//!
+//! Theorem 1 of Loomis and Balkcom (2006): if `(z1, w1)` solves the principal sub-problem `(M11, q1)` on k indices, then
+//! `([z1 0], [w1, M21 z1 + q2])` is complementary for `(M, q)` and at most n - k rows are violated, so Dantzig's
+//! method ends in at most n - k major cycles. Valid when `M11` and `q1` are exactly the rows and columns of `M` and `q` on
+//! those indices; that is checked, because a start from another problem gives a violated row among them.
+
+/// A named start: `z` solves the principal sub-problem on `indices`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// Rows of the complete problem that the sub-problem has, in its order (k).
+    pub indices: Vec<usize>,
+    /// Solution of the sub-problem (k).
+    pub z: Vec<f64>,
+}
+
+/// Why a start was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// `indices` and `z` differ in length.
+    #[error("{indices} indices but {values} values")]
+    Length {
+        /// Number of indices.
+        indices: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// An index beyond the problem.
+    #[error("index {index} is outside a problem with {n} rows")]
+    OutOfRange {
+        /// The index.
+        index: usize,
+        /// Rows of the problem.
+        n: usize,
+    },
+    /// An index given twice.
+    #[error("index {index} is given twice")]
+    Repeated {
+        /// The index.
+        index: usize,
+    },
+    /// A negative or non-finite `z`.
+    #[error("z[{index}] is {value}: a sub-problem's solution is finite and not negative")]
+    Infeasible {
+        /// Index in the complete problem.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// `w` is negative on a row of the sub-problem: `z` does not solve it.
+    #[error("w[{index}] = {w:e} is negative there: z does not solve the sub-problem of this matrix and vector")]
+    Violated {
+        /// Index in the complete problem.
+        index: usize,
+        /// The value of `w`.
+        w: f64,
+    },
+    /// Both `z` and `w` are positive on a row.
+    #[error("z[{index}] = {z:e} and w[{index}] = {w:e} are both positive: the start is not complementary")]
+    NotComplementary {
+        /// Index in the complete problem.
+        index: usize,
+        /// The value of `z`.
+        z: f64,
+        /// The value of `w`.
+        w: f64,
+    },
+    /// The method cannot start from a sub-problem.
+    #[error("{method} cannot start from a sub-problem's solution; use Dantzig's method")]
+    Unsupported {
+        /// Name of the method.
+        method: &'static str,
+    },
+}
+
+impl Start {
+    /// Checks what can be checked without the matrix.
+    ///
+    /// # Errors
+    /// The first [`StartError`] found.
+    pub(crate) fn require_well_formed(&self, n: usize) -> Result<(), StartError> {
+        if self.indices.len() != self.z.len() {
+            return Err(StartError::Length { indices: self.indices.len(), values: self.z.len() });
+        }
+        let mut seen = vec![false; n];
+        for (&index, &value) in self.indices.iter().zip(&self.z) {
+            if index >= n {
+                return Err(StartError::OutOfRange { index, n });
+            }
+            if std::mem::replace(&mut seen[index], true) {
+                return Err(StartError::Repeated { index });
+            }
+            if !value.is_finite() || value < 0.0 {
+                return Err(StartError::Infeasible { index, value });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,44 @@
+//! Symmetric scaling to a unit diagonal, which makes every tolerance a relative one.
+
+use crate::problem::Problem;
+
+/// `d_i = 1 / sqrt(M_ii)`, and 1 where the diagonal is not positive. With `z = D zs`, `w = D^-1 ws` the problem
+/// becomes `ws = (D M D) zs + D q`.
+#[derive(Debug, Clone)]
+pub(crate) struct Scaling {
+    pub d: Vec<f64>,
+    /// Largest entry of `D q`.
+    q_size: f64,
+}
+
+impl Scaling {
+    pub fn new(problem: &Problem) -> Self {
+        let d: Vec<f64> = (0..problem.len())
+            .map(|i| {
+                let diagonal = problem.m().get(i, i);
+                if diagonal > 0.0 { diagonal.sqrt().recip() } else { 1.0 }
+            })
+            .collect();
+        let q_size = d.iter().zip(problem.q()).fold(0.0_f64, |size, (d, q)| size.max((d * q).abs()));
+        Self { d, q_size }
+    }
+
+    /// The problem's own scale at a scaled `z`: rounding in `M z + q` is a small multiple of it.
+    pub fn own_scale(&self, scaled_z_size: f64) -> f64 {
+        self.q_size.max(scaled_z_size)
+    }
+
+    /// Residual of an unscaled pair; see [`crate::solution::residual`].
+    pub fn residual(&self, w: &[f64], z: &[f64]) -> f64 {
+        let (mut worst, mut z_size) = (0.0_f64, 0.0_f64);
+        for ((&d, &w), &z) in self.d.iter().zip(w).zip(z) {
+            let (zs, ws) = (z / d, w * d);
+            worst = worst.max(zs.min(ws).abs());
+            z_size = z_size.max(zs.abs());
+            if zs.is_nan() || ws.is_nan() {
+                return f64::NAN;
+            }
+        }
+        if worst == 0.0 { 0.0 } else { worst / self.own_scale(z_size) }
+    }
+}
