@@ -1,0 +1,71 @@
+"""Exact contact dynamics of stacked and assembled rigid bodies, with computation reuse.
+
+`import drystone` costs next to nothing: a name below is loaded when it is first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from drystone import lcp, scenes
+    from drystone._core import DrystoneError, LcpError, SceneError, StartError, __version__
+    from drystone.planning import Plan, TestRecord, plan
+    from drystone.scene import Body, Contact, Scene
+    from drystone.statics import StaticsError
+    from drystone.verdict import ContactForce, Verdict, check
+
+__all__ = [
+    "Body",
+    "Contact",
+    "ContactForce",
+    "DrystoneError",
+    "LcpError",
+    "Plan",
+    "Scene",
+    "SceneError",
+    "StartError",
+    "StaticsError",
+    "TestRecord",
+    "Verdict",
+    "__version__",
+    "check",
+    "lcp",
+    "plan",
+    "scenes",
+]
+
+_MODULES = ("lcp", "scenes")
+_HOMES = {
+    "Body": "drystone.scene",
+    "Contact": "drystone.scene",
+    "ContactForce": "drystone.verdict",
+    "DrystoneError": "drystone._core",
+    "LcpError": "drystone._core",
+    "Plan": "drystone.planning",
+    "Scene": "drystone.scene",
+    "SceneError": "drystone._core",
+    "StartError": "drystone._core",
+    "StaticsError": "drystone.statics",
+    "TestRecord": "drystone.planning",
+    "Verdict": "drystone.verdict",
+    "__version__": "drystone._core",
+    "check": "drystone.verdict",
+    "plan": "drystone.planning",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load the module that holds `name` on first use (PEP 562)."""
+    if name in _MODULES:
+        return import_module(f"drystone.{name}")
+    if name not in _HOMES:
+        raise AttributeError(f"module 'drystone' has no attribute {name!r}")
+    value = getattr(import_module(_HOMES[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

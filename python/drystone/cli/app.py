@@ -1,0 +1,112 @@
+"""The commands and their options. Anything heavy is imported inside the command that needs it."""
+
+from __future__ import annotations
+
+from enum import Enum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from drystone.cli.scene import scene_app
+
+app = typer.Typer(
+    help="Does it stand, and in which order can it be taken apart? "
+    "Exact contact dynamics of stacked rigid bodies.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.add_typer(scene_app, name="scene")
+
+File = Annotated[
+    str,
+    typer.Argument(
+        metavar="SCENE",
+        help="A scene file, or a built-in scene with its parameters: "
+        "[bold]column:50[/], [bold]random_stack:84,seed=3[/].",
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+Picture = Annotated[
+    Path | None, typer.Option("-o", "--output", help="Write a picture, .svg or .png.")
+]
+
+
+class StabilityTest(str, Enum):
+    """The stability tests of `plan`."""
+
+    reuse = "reuse"
+    lcp = "lcp"
+    lp = "lp"
+    lp_warm = "lp-warm"
+
+
+@app.callback(invoke_without_command=True)
+def root(
+    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+) -> int:
+    """The options that belong to no command."""
+    if version:
+        import drystone
+
+        print(drystone.__version__)
+        raise typer.Exit
+    return 0
+
+
+@app.command()
+def check(
+    scene: File,
+    blocks: Annotated[
+        str | None, typer.Option(help="Only these blocks, names separated by commas.")
+    ] = None,
+    as_json: AsJson = False,
+    output: Picture = None,
+) -> int:
+    """Does it stand? With which contact forces; if not, how does it begin to fall?"""
+    from drystone.cli import check as command
+
+    return command.run(scene, blocks, as_json, output)
+
+
+@app.command()
+def plan(
+    scene: File,
+    test: Annotated[
+        StabilityTest, typer.Option(help="How sub-assemblies are tested.")
+    ] = StabilityTest.reuse,
+    node_limit: Annotated[int | None, typer.Option(min=0, help="At most so many tests.")] = None,
+    time_limit: Annotated[
+        float | None, typer.Option(min=0.0, help="At most so many seconds.")
+    ] = None,
+    as_json: AsJson = False,
+    output: Picture = None,
+) -> int:
+    """In which order can it be taken apart so that it never collapses?"""
+    from drystone.cli import plan as command
+
+    return command.run(scene, test.value, node_limit, time_limit, as_json, output)
+
+
+bench_app = typer.Typer(help="Repeat published measurements.", no_args_is_help=True)
+app.add_typer(bench_app, name="bench")
+
+
+@bench_app.command()
+def paper(
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder for the table and the figures.")
+    ] = Path("out/paper"),
+) -> int:
+    """Table I and Figs. 5, 6 and 7 of Loomis and Balkcom (2006)."""
+    from drystone.cli import bench as command
+
+    return command.run(output)
+
+
+@bench_app.callback()
+def bench_root() -> None:
+    """Repeat published measurements."""

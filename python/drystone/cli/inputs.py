@@ -1,0 +1,74 @@
+"""Scenes and pictures named on the command line."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from drystone.cli.errors import InputError
+
+if TYPE_CHECKING:
+    from drystone.scene import Scene
+
+
+def load_scene(text: str) -> Scene:
+    """The scene in the file `text`, or the built-in one that `text` names."""
+    from drystone import scenes
+    from drystone.scene import Scene
+
+    name, _, parameters = text.partition(":")
+    builder = getattr(scenes, python_name(name), None)
+    if not Path(text).exists() and python_name(name) in scenes.__all__ and builder is not None:
+        return built(builder, parameters)
+    with reporting_files():
+        return Scene.load(text)
+
+
+def built(builder: Callable[..., Scene], text: str) -> Scene:
+    """A built-in scene from parameters like "50,friction=0.5": in order, or by name."""
+    signature = inspect.signature(builder, eval_str=True)
+    names = list(signature.parameters)
+    given: dict[str, Any] = {}
+    for place, part in enumerate(filter(None, text.split(","))):
+        key, equals, value = part.partition("=")
+        if not equals:
+            key, value = (names[place] if place < len(names) else ""), part
+        if key not in signature.parameters:
+            raise InputError(
+                f"{builder.__name__} has no parameter {key or part!r}: it takes {', '.join(names)}"
+            )
+        given[key] = _number(value, signature.parameters[key].annotation, builder.__name__, key)
+    return builder(**given)
+
+
+def python_name(name: str) -> str:
+    """random-stack is random_stack."""
+    return name.replace("-", "_")
+
+
+def picture_path(path: Path | None) -> Path | None:
+    """`path`, refused before any work if no picture can be written there."""
+    if path is not None and path.suffix.lower() not in (".svg", ".png"):
+        raise InputError(f"{path}: a picture's name ends in .svg or .png")
+    return path
+
+
+@contextmanager
+def reporting_files() -> Iterator[None]:
+    """Failures to read or write a file become one line that names the file."""
+    try:
+        yield
+    except OSError as error:
+        where = f"{error.filename}: " if error.filename else ""
+        raise InputError(f"{where}{error.strerror or error}") from None
+
+
+def _number(text: str, kind: type, scene: str, parameter: str) -> Any:
+    try:
+        return kind(text)
+    except ValueError:
+        wanted = "a whole number" if kind is int else "a number"
+        raise InputError(f"{scene}: {parameter} must be {wanted}, not {text!r}") from None

@@ -1,0 +1,53 @@
+"""`drystone plan`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from drystone.cli.inputs import load_scene, picture_path, reporting_files
+from drystone.planning import Plan, plan
+from drystone.progress import PlanProgress
+
+
+def run(
+    scene_name: str,
+    test: str,
+    node_limit: int | None,
+    time_limit: float | None,
+    as_json: bool,
+    output: Path | None,
+) -> int:
+    """0 if an order was found, 1 if not."""
+    picture = picture_path(output)
+    scene = load_scene(scene_name)
+    with PlanProgress() as progress:
+        found = plan(scene, test, node_limit, time_limit, progress)
+    if picture is not None:
+        with reporting_files():
+            found.draw(picture)
+    if as_json:
+        print(json.dumps(found.to_dict(), indent=2))
+    else:
+        _print(found, picture)
+    return 0 if found.found else 1
+
+
+def _print(found: Plan, picture: Path | None) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    console.print(str(found).splitlines()[0], style="bold green" if found.found else "bold red")
+    facts = Table.grid(padding=(0, 2))
+    if found.found:
+        facts.add_row("remove, in this order", " ".join(found.order))
+    else:
+        facts.add_row("largest that stands", " ".join(found.reached) or "nothing")
+        facts.add_row("falls with any of", " ".join(found.falls_next) or "nothing tried")
+        if found.whole is not None:
+            facts.add_row("the whole assembly", str(found.whole))
+    facts.add_row("stability test", found.test)
+    console.print(facts)
+    if picture is not None:
+        console.print(f"picture: {picture}")

@@ -1,0 +1,70 @@
+"""`drystone scene NAME`: one command for every function of `drystone.scenes`."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from drystone import scenes
+from drystone.cli.inputs import reporting_files
+from drystone.scene import Scene
+
+scene_app = typer.Typer(help="Write a built-in scene as a scene file.", no_args_is_help=True)
+
+Output = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", help="The scene file to write; standard output without it."),
+]
+
+
+@scene_app.callback(invoke_without_command=True)
+def root(
+    context: typer.Context,
+    every: Annotated[bool, typer.Option("--list", help="List the built-in scenes.")] = False,
+) -> int:
+    """Write a built-in scene as a scene file."""
+    if every:
+        for name in scenes.__all__:
+            print(f"{name:18} {_first_line(getattr(scenes, name))}")
+    elif context.invoked_subcommand is None:
+        print(context.get_help())
+    return 0
+
+
+def _command(builder: Callable[..., Scene]) -> Callable[..., int]:
+    """A command whose options are the builder's parameters, and `--output`."""
+
+    def write(**options: Any) -> int:
+        output: Path | None = options.pop("output")
+        scene = builder(**options)
+        if output is None:
+            print(scene.to_json())
+            return 0
+        with reporting_files():
+            scene.save(output)
+        print(f"{len(scene)} bodies written to {output}")
+        return 0
+
+    parameters = [
+        parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
+        for parameter in inspect.signature(builder, eval_str=True).parameters.values()
+    ]
+    parameters.append(
+        inspect.Parameter("output", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Output)
+    )
+    write.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+    write.__annotations__ = {p.name: p.annotation for p in parameters}
+    return write
+
+
+def _first_line(builder: Callable[..., Scene]) -> str:
+    return (builder.__doc__ or "").strip().splitlines()[0]
+
+
+for _name in scenes.__all__:
+    _builder = getattr(scenes, _name)
+    scene_app.command(_name, help=_first_line(_builder))(_command(_builder))

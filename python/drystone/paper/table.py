@@ -1,0 +1,129 @@
+"""Table I: total number of pivots by algorithm, for frictionless examples."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drystone import scenes
+from drystone.planning import Plan, plan
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from drystone.scene import Scene
+
+COLUMNS = ("lp", "lp-warm", "lcp", "reuse")
+"""Stability tests, in the paper's order; it has no lp-warm, the live warm-started model."""
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """A row of the paper's table."""
+
+    name: str
+    build: Callable[[], Scene]
+    printed: Mapping[str, int]
+    """The paper's pivots; its lp is lp_solve's revised simplex method."""
+
+
+EXAMPLES = (
+    Example("Random 10", lambda: scenes.random_stack(10), {"lp": 102, "lcp": 127, "reuse": 13}),
+    Example("Column 50", lambda: scenes.column(50), {"lp": 2352, "lcp": 2352, "reuse": 96}),
+    Example("Column 80", lambda: scenes.column(80), {"lp": 6162, "lcp": 6162, "reuse": 156}),
+    Example(
+        "Random 84", lambda: scenes.random_stack(84), {"lp": 11975, "lcp": 15136, "reuse": 420}
+    ),
+    Example("Pyramid 91", lambda: scenes.pyramid(13), {"lp": 8190, "lcp": 8190, "reuse": 180}),
+)
+"""The paper's random structures are not published: ours are others of the same kind and size."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Row:
+    """One example planned with every stability test."""
+
+    example: Example
+    plans: Mapping[str, Plan]
+
+    @property
+    def found(self) -> bool:
+        """Whether every test led to an order."""
+        return all(plan.found for plan in self.plans.values())
+
+
+def measure(announce: Callable[[str], None] = lambda what: None) -> list[Row]:
+    """Plan every example with every test; `announce` is told what comes next."""
+    rows = []
+    for example in EXAMPLES:
+        scene = example.build()
+        plans = {}
+        for test in COLUMNS:
+            announce(f"{example.name} ({test})")
+            plans[test] = plan(scene, test)
+        rows.append(Row(example, plans))
+    return rows
+
+
+def as_table(rows: list[Row]) -> Table:
+    """Ours beside the paper's numbers, and what reuse saves."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(
+        title="Total number of pivots, frictionless examples (the paper's in brackets)",
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        caption="random examples: other structures than the paper's, which are not published",
+        caption_justify="left",
+    )
+    table.add_column("structure")
+    table.add_column("tests", justify="right")
+    for test in COLUMNS:
+        table.add_column(test, justify="right")
+    table.add_column("lcp / reuse", justify="right")
+    table.add_column("test time [ms]\n" + " / ".join(COLUMNS), justify="right")
+    for row in rows:
+        table.add_row(
+            row.example.name,
+            str(row.plans["reuse"].tests),
+            *(_beside(row.plans[test].pivots, row.example.printed.get(test)) for test in COLUMNS),
+            f"{_ratio(row):.1f}",
+            " / ".join(f"{1e3 * row.plans[test].test_seconds:.3g}" for test in COLUMNS),
+        )
+    return table
+
+
+def write_csv(rows: list[Row], folder: Path) -> Path:
+    """One line an example and test."""
+    path = folder / "table1.csv"
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(
+            ["structure", "test", "found", "tests", "pivots", "pivots_paper", "test_seconds"]
+        )
+        for row in rows:
+            for test, found in row.plans.items():
+                writer.writerow(
+                    [
+                        row.example.name,
+                        test,
+                        found.found,
+                        found.tests,
+                        found.pivots,
+                        row.example.printed.get(test, ""),
+                        f"{found.test_seconds:.6f}",
+                    ]
+                )
+    return path
+
+
+def _beside(ours: int, printed: int | None) -> str:
+    return f"{ours}" if printed is None else f"{ours} [dim]({printed})[/]"
+
+
+def _ratio(row: Row) -> float:
+    return row.plans["lcp"].pivots / max(row.plans["reuse"].pivots, 1)

@@ -1,0 +1,11 @@
+"""Pictures of scenes, verdicts and plans, as matplotlib figures.
+
+Figures are built without pyplot: no global state, no window, any thread. `save` writes SVG or PNG,
+`svg` gives the text of one.
+"""
+
+from drystone.pictures.canvas import save, svg
+from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
+from drystone.pictures.graph import graph_figure
+
+__all__ = ["graph_figure", "plan_figure", "save", "scene_figure", "svg", "verdict_figure"]

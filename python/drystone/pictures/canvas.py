@@ -1,0 +1,149 @@
+"""A figure fitted to a scene: equal scales, no axes, room for a title, a key and a colour bar."""
+
+from __future__ import annotations
+
+import io
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from drystone.pictures import style
+from drystone.scene import Body
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import NDArray
+
+LONGEST_SIDE = 8.0
+"""Inches of the drawing's longer side."""
+LEAST_WIDTH = 3.4
+"""Inches, so that a title fits above a slender column."""
+FIXED_REACH = 0.2
+"""How far beyond the movable bodies a fixed one may widen the view, in the view's own size."""
+SETTINGS: dict[Any, Any] = {
+    "svg.hashsalt": "drystone",
+    "svg.fonttype": "none",
+    "hatch.linewidth": 0.6,
+}
+"""Same input, same file: no random identifiers. Text stays text."""
+
+
+@dataclass(frozen=True, slots=True)
+class Canvas:
+    """A figure, its drawing area, and the scale between metres and points."""
+
+    figure: Figure
+    axes: Axes
+    points_per_metre: float
+    box: tuple[float, float, float, float]
+    """(left, bottom, right, top) of the view in metres."""
+
+    @property
+    def diagonal(self) -> float:
+        """Metres across the view."""
+        left, bottom, right, top = self.box
+        return float(np.hypot(right - left, top - bottom))
+
+
+def fitted(bodies: Sequence[Body], title: str, note: str = "", colour_bar: bool = False) -> Canvas:
+    """An empty canvas for these bodies, with a title above and a note below."""
+    box = _view(bodies)
+    width, height = box[2] - box[0], box[3] - box[1]
+    scale = LONGEST_SIDE / max(width, height)
+    drawn_width, drawn_height = width * scale, height * scale
+    side = 0.95 if colour_bar else 0.15
+    total_width = max(drawn_width + 0.15 + side, LEAST_WIDTH)
+    title_lines = _wrapped(title, total_width, 11)
+    note_lines = _wrapped(note, total_width, 8)
+    top = 0.18 + 0.2 * len(title_lines)
+    bottom = 0.5 + 0.16 * len(note_lines)
+    total_height = drawn_height + top + bottom
+    figure = Figure(figsize=(total_width, total_height), facecolor="white")
+    left = (total_width - side + 0.15 - drawn_width) / 2
+    axes = figure.add_axes(
+        (
+            left / total_width,
+            bottom / total_height,
+            drawn_width / total_width,
+            drawn_height / total_height,
+        )
+    )
+    axes.set_xlim(box[0], box[2])
+    axes.set_ylim(box[1], box[3])
+    axes.set_axis_off()
+    figure.text(
+        0.15 / total_width,
+        1 - 0.1 / total_height,
+        "\n".join(title_lines),
+        size=11,
+        weight="bold",
+        color=style.INK,
+        va="top",
+    )
+    figure.text(
+        0.15 / total_width,
+        0.08 / total_height,
+        "\n".join(note_lines),
+        size=8,
+        color=style.FAINT,
+        va="bottom",
+    )
+    return Canvas(figure, axes, 72 * scale, box)
+
+
+def save(figure: Figure, path: str | PathLike[str]) -> None:
+    """Write the figure; the name ends in .svg or .png. ValueError for another ending."""
+    suffix = Path(fspath(path)).suffix.lower()
+    if suffix not in (".svg", ".png"):
+        raise ValueError(f"a picture's name ends in .svg or .png, not {suffix or 'nothing'!r}")
+    data = _rendered(figure, suffix[1:])
+    Path(fspath(path)).write_bytes(data)
+
+
+def svg(figure: Figure) -> str:
+    """The figure as the text of an SVG image."""
+    return _rendered(figure, "svg").decode()
+
+
+def _rendered(figure: Figure, kind: str) -> bytes:
+    out = io.BytesIO()
+    metadata = {"Date": None} if kind == "svg" else {"Software": None}
+    with mpl.rc_context(SETTINGS):
+        figure.savefig(out, format=kind, dpi=160, metadata=metadata)
+    return out.getvalue()
+
+
+def _view(bodies: Sequence[Body]) -> tuple[float, float, float, float]:
+    """The movable bodies and as much of the fixed ones as `FIXED_REACH` lets in, with a margin."""
+    movable = [body.vertices for body in bodies if not body.fixed]
+    every = [body.vertices for body in bodies] or [np.array([[0.0, 0.0], [1.0, 1.0]])]
+    low, high = bounds(movable or every)
+    if movable:
+        reach = FIXED_REACH * np.max(high - low)
+        all_low, all_high = bounds(every)
+        low, high = np.maximum(all_low, low - reach), np.minimum(all_high, high + reach)
+    margin = 0.03 * np.max(high - low)
+    left, bottom = low - margin
+    right, top = high + margin
+    return float(left), float(bottom), float(right), float(top)
+
+
+def bounds(
+    polygons: Sequence[NDArray[np.float64]],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The lower left and the upper right corner around some polygons."""
+    corners = np.concatenate(polygons)
+    return corners.min(axis=0), corners.max(axis=0)
+
+
+def _wrapped(text: str, inches: float, size: float) -> list[str]:
+    """Lines of `text` that fit into a width; a character is about 0.57 of its size wide."""
+    characters = max(int(72 * (inches - 0.3) / (0.57 * size)), 12)
+    return [line for part in text.splitlines() for line in textwrap.wrap(part, characters)]

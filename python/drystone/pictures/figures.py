@@ -1,0 +1,146 @@
+"""The three pictures: a scene, a verdict, a plan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize, to_hex
+
+from drystone.pictures import style
+from drystone.pictures.arrows import draw_arrows
+from drystone.pictures.canvas import Canvas, fitted
+from drystone.pictures.shapes import (
+    draw_absent,
+    draw_blocks,
+    draw_fixed,
+    draw_labels,
+    typical_size,
+)
+from drystone.scene import Body, Scene
+from drystone.verdict import Verdict
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from drystone.planning import Plan
+
+GHOST_MOVE = 0.35
+"""How far the fastest corner of a falling block is shown moved, in typical block sizes."""
+
+
+def scene_figure(scene: Scene) -> Figure:
+    """The bodies with their names."""
+    bodies = scene.bodies
+    movable = [body for body in bodies if not body.fixed]
+    canvas = fitted(bodies, f"{len(movable)} blocks, {len(scene.contacts)} contact points")
+    fills = {body.name: style.STONE for body in movable}
+    draw_fixed(canvas, bodies)
+    draw_blocks(canvas, bodies, fills)
+    draw_labels(canvas, bodies, {name: name for name in fills}, fills)
+    return canvas.figure
+
+
+def verdict_figure(verdict: Verdict) -> Figure:
+    """Contact forces to scale; blocks that fall in red, with where they go."""
+    bodies = verdict.scene.bodies
+    present = set(verdict.names)
+    falling = set(verdict.falling)
+    headline, _, details = str(verdict).partition("; ")
+    canvas = fitted(bodies, headline, f"{details}\n")
+    draw_fixed(canvas, bodies)
+    draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in present])
+    fills = {name: style.FALLING if name in falling else style.STONE for name in verdict.names}
+    draw_blocks(canvas, bodies, fills, dict.fromkeys(falling, style.FALL))
+    draw_labels(canvas, bodies, {name: name for name in fills}, fills)
+    blocks = [body for body in bodies if body.name in present]
+    longest = min(0.12 * canvas.diagonal, 1.1 * typical_size(blocks))
+    _draw_forces(canvas, verdict, longest)
+    if falling:
+        _draw_fall(canvas, verdict, blocks, longest)
+    return canvas.figure
+
+
+def plan_figure(plan: Plan) -> Figure:
+    """Blocks coloured by their place in the order; without one, how far the search came."""
+    headline, _, details = str(plan).partition("; ")
+    bodies = plan.scene.bodies
+    if not plan.found:
+        return _unfinished_figure(plan, bodies, headline, details)
+    canvas = fitted(bodies, headline, details.partition("\n")[0], colour_bar=True)
+    colours = colormaps[style.ORDER_MAP]
+    last = max(len(plan.order) - 1, 1)
+    fills = {name: to_hex(colours(1 - i / last)) for i, name in enumerate(plan.order)}
+    draw_fixed(canvas, bodies)
+    draw_blocks(canvas, bodies, fills)
+    draw_labels(canvas, bodies, {n: str(i + 1) for i, n in enumerate(plan.order)}, fills)
+    _draw_order_bar(canvas, len(plan.order))
+    return canvas.figure
+
+
+def _unfinished_figure(plan: Plan, bodies: Sequence[Body], headline: str, details: str) -> Figure:
+    canvas = fitted(bodies, headline, details)
+    fills = dict.fromkeys(plan.reached, style.STONE)
+    fills |= dict.fromkeys(plan.falls_next, style.FALLING)
+    draw_fixed(canvas, bodies)
+    draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in fills])
+    draw_blocks(canvas, bodies, fills, dict.fromkeys(plan.falls_next, style.FALL))
+    draw_labels(canvas, bodies, {name: name for name in fills}, fills)
+    return canvas.figure
+
+
+def _draw_forces(canvas: Canvas, verdict: Verdict, longest: float) -> None:
+    """Each force once, as it acts on the body that is carried: against gravity."""
+    points = np.array([force.point for force in verdict.forces]).reshape(-1, 2)
+    vectors = np.array([force.force for force in verdict.forces]).reshape(-1, 2)
+    down = vectors @ np.asarray(verdict.scene.gravity) > 0
+    vectors[down] *= -1
+    draw_arrows(canvas, points, vectors, longest, "N", style.FORCE)
+
+
+def _draw_fall(canvas: Canvas, verdict: Verdict, blocks: Sequence[Body], longest: float) -> None:
+    """Accelerations of centroids to scale, and dashed outlines of where the blocks are going."""
+    falling = [body for body in blocks if body.name in verdict.falling]
+    moves = np.array([verdict.acceleration(body.name) for body in falling])
+    centroids = np.array([body.centroid for body in falling])
+    draw_arrows(canvas, centroids, moves[:, :2], longest, "m/s²", style.FALL, key_at=0.5)
+    ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
+    fastest = max(float(np.max(np.hypot(*ghost.T))) for ghost in ghosts)
+    reach = GHOST_MOVE * typical_size(blocks) / fastest if fastest > 0 else 0.0
+    outlines = [body.vertices + reach * ghost for body, ghost in zip(falling, ghosts, strict=True)]
+    canvas.axes.add_collection(
+        PolyCollection(
+            outlines,
+            facecolors="none",
+            edgecolors=style.FALL,
+            linestyles="dashed",
+            linewidths=0.8,
+        ),
+        autolim=False,
+    )
+
+
+def _corner_moves(body: Body, acceleration: np.ndarray) -> np.ndarray:
+    """(n, 2): acceleration of every corner of a body that is at rest, m/s^2."""
+    arm = body.vertices - np.asarray(body.centroid)
+    turn = acceleration[2] * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
+    moves: np.ndarray = acceleration[:2] + turn
+    return moves
+
+
+def _draw_order_bar(canvas: Canvas, count: int) -> None:
+    """The colour bar: first removed at the top, as the blocks usually are."""
+    frame = canvas.axes.get_position()
+    width = canvas.figure.get_figwidth()
+    bar = canvas.figure.add_axes((1 - 0.78 / width, frame.y0, 0.14 / width, frame.height))
+    colours = ScalarMappable(Normalize(-max(count, 2), -1), colormaps[style.ORDER_MAP])
+    ticks = sorted({1, count, *np.linspace(1, count, 5).round().astype(int).tolist()})
+    drawn = canvas.figure.colorbar(colours, cax=bar, ticks=[-tick for tick in ticks])
+    drawn.ax.set_yticklabels([str(tick) for tick in ticks], size=8, color=style.INK)
+    drawn.ax.tick_params(length=2, color=style.FAINT)
+    drawn.outline.set_visible(False)
+    bar.set_title("removed", size=8, color=style.INK, loc="left", pad=4)

@@ -1,0 +1,171 @@
+"""In which order can it be taken apart so that it never collapses?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import Any
+
+from drystone import _core
+from drystone.scene import Scene
+from drystone.verdict import Verdict, shorten
+
+TESTS = ("reuse", "lcp", "lp", "lp-warm")
+"""The stability tests `plan` knows: see there."""
+
+Progress = Callable[[int, int, int], None]
+"""Called with (tests done, blocks placed, blocks in all) a few times a second."""
+
+
+@dataclass(frozen=True, slots=True)
+class TestRecord:
+    """One stability test of a plan."""
+
+    __test__ = False  # pytest: no test class, whatever its name
+
+    size: int
+    """Movable bodies in the sub-assembly tested."""
+    pivots: int
+    seconds: float
+    stable: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """The answer of `plan`."""
+
+    found: bool
+    status: str
+    """"found", or why the search ended without an order."""
+    order: tuple[str, ...]
+    """Names of the blocks, first removed first; empty if no order was found."""
+    reached: tuple[str, ...]
+    """The largest sub-assembly that was built up and stands."""
+    falls_next: tuple[str, ...]
+    """Without an order: the blocks any of which, added to `reached`, makes something fall."""
+    tests: int
+    """Stability tests of proper sub-assemblies."""
+    pivots: int
+    """Pivots of all these tests together."""
+    test_seconds: float
+    """Wall time of all these tests together."""
+    seconds: float
+    """Wall time of the whole search."""
+    records: tuple[TestRecord, ...]
+    """One entry a test, in order."""
+    whole: Verdict | None
+    """The verdict on the complete assembly, which is checked first and counted apart."""
+    test: str
+    """The stability test used."""
+    scene: Scene = field(repr=False)
+    """The scene planned."""
+
+    @classmethod
+    def _of(cls, core: _core.Plan, test: str, scene: Scene) -> Plan:
+        return cls(
+            core.found,
+            core.status,
+            tuple(core.order),
+            tuple(core.reached),
+            tuple(core.falls_next),
+            core.tests,
+            core.pivots,
+            core.test_seconds,
+            core.seconds,
+            tuple(TestRecord(r.size, r.pivots, r.seconds, r.stable) for r in core.records),
+            None if core.whole is None else Verdict._of(core.whole, scene),
+            test,
+            scene,
+        )
+
+    def __str__(self) -> str:
+        work = (
+            f"{self.tests} tests, {self.pivots} pivots, "
+            f"{1e3 * self.test_seconds:.3g} ms in tests of {1e3 * self.seconds:.3g} ms"
+        )
+        if self.found:
+            return (
+                f"Order found for {len(self.order)} blocks; {work}.\n"
+                f"Remove first: {shorten(self.order)}."
+            )
+        text = f"No order ({self.status.replace('_', ' ')}); {work}."
+        text += f"\nLargest sub-assembly reached: {len(self.reached)} blocks"
+        if self.falls_next:
+            text += f"; it falls if any of these is added: {shorten(self.falls_next)}"
+        return text + "."
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the scene, in types that JSON knows."""
+        return {
+            "found": self.found,
+            "status": self.status,
+            "order": list(self.order),
+            "reached": list(self.reached),
+            "falls_next": list(self.falls_next),
+            "test": self.test,
+            "tests": self.tests,
+            "pivots": self.pivots,
+            "test_seconds": self.test_seconds,
+            "seconds": self.seconds,
+            "records": [
+                {"size": r.size, "pivots": r.pivots, "seconds": r.seconds, "stable": r.stable}
+                for r in self.records
+            ],
+            "whole": None if self.whole is None else self.whole.to_dict(),
+        }
+
+    def draw(self, path: str | PathLike[str]) -> None:
+        """Write a picture of the order; the name ends in .svg or .png."""
+        from drystone import pictures
+
+        pictures.save(pictures.plan_figure(self), path)
+
+    def _repr_svg_(self) -> str:
+        from drystone import pictures
+
+        return pictures.svg(pictures.plan_figure(self))
+
+
+def plan(
+    scene: Scene,
+    test: str = "reuse",
+    node_limit: int | None = None,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+) -> Plan:
+    """Search an order of removal in which no intermediate structure collapses.
+
+    Sub-assemblies grow from the fixed bodies upward, one block at a time and depth first; the
+    order returned is the reverse. `test` decides on each sub-assembly:
+
+    - "reuse": the contact problem, started from the solution of the sub-assembly it grew from;
+    - "lcp": the contact problem from scratch;
+    - "lp": static equilibrium as a linear program, a fresh HiGHS model for every test;
+    - "lp-warm": the same program in one live HiGHS model, warm-started.
+
+    `node_limit` bounds the tests, `time_limit` the seconds. A limit reached or an interrupt
+    (Ctrl-C) is a status of the plan, which then holds the best so far.
+
+    >>> import drystone as ds
+    >>> ds.plan(ds.scenes.column(4)).found
+    True
+    """
+    return Plan._of(
+        _core.plan(scene._core, _stability_test(scene, test), node_limit, time_limit, progress),
+        test,
+        scene,
+    )
+
+
+def _stability_test(scene: Scene, test: str) -> str | Callable[[list[int], int], tuple[bool, int]]:
+    """What the core's `plan` takes for `test`."""
+    if test in ("reuse", "lcp"):
+        return test
+    from drystone import statics
+
+    if test == "lp":
+        return statics.ColdProgram(statics.Equilibrium.of(scene))
+    if test == "lp-warm":
+        return statics.WarmProgram(statics.Equilibrium.of(scene))
+    raise ValueError(f"unknown test {test!r}: choose one of {', '.join(TESTS)}")

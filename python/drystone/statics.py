@@ -1,0 +1,248 @@
+"""Static equilibrium as a linear program, decided by HiGHS.
+
+A sub-assembly stands if some f >= 0 has G f = -F: generator forces f (N) that balance the applied
+wrench F of every body present. Only generators whose bodies are all present (or fixed) count.
+Body i's three rows are divided by its mass and inertia, and all by the largest applied
+acceleration, so that HiGHS's feasibility tolerance (1e-7) bounds accelerations relative to that of
+gravity; each column is scaled to a largest entry of one.
+
+These are the rivals that the contact problem is compared with: `ColdProgram` builds and solves a
+fresh model for every test, as the paper did with lp_solve; `WarmProgram` keeps one model alive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import highspy
+import numpy as np
+
+from drystone import _core
+from drystone._core import DrystoneError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from drystone.scene import Scene
+
+PRIMAL_SIMPLEX = 4
+"""HiGHS's simplex_strategy for cold and warm starts alike."""
+
+
+class StaticsError(DrystoneError):
+    """Neither the simplex method nor the interior point method decided a linear program."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Columns:
+    """Columns of a linear program in HiGHS's compressed form."""
+
+    starts: NDArray[np.int32]
+    rows: NDArray[np.int32]
+    values: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Equilibrium:
+    """The scaled program of the complete assembly: rows 3 i + k of movable body i."""
+
+    indptr: NDArray[np.int64]
+    rows: NDArray[np.int64]
+    values: NDArray[np.float64]
+    right: NDArray[np.float64]
+    """(3 bodies,), the accelerations to balance."""
+    bodies: NDArray[np.int64]
+    """(generators, 2), -1 for a fixed body."""
+    touching: tuple[NDArray[np.int64], ...]
+    """For each body the generators that act on it."""
+
+    @classmethod
+    def of(cls, scene: Scene) -> Equilibrium:
+        """The program of all movable bodies of `scene`."""
+        g = _core.generators(scene._core)
+        per_column = np.diff(g.indptr)
+        values = g.data * g.inverse_mass[g.indices]
+        largest = np.zeros(len(per_column))
+        np.maximum.at(largest, np.repeat(np.arange(len(per_column)), per_column), np.abs(values))
+        values /= np.repeat(largest, per_column)
+        right = -g.applied * g.inverse_mass
+        right /= np.max(np.abs(right), initial=0.0) or 1.0
+        return cls(g.indptr, g.indices, values, right, g.bodies, _touching(g.bodies, len(g.names)))
+
+    def columns(self, generators: NDArray[np.int64], place: NDArray[np.int64]) -> Columns:
+        """Some generators' columns; `place[body]` is where the body's rows are in the model."""
+        lengths = self.indptr[generators + 1] - self.indptr[generators]
+        starts = np.concatenate(([0], np.cumsum(lengths)))
+        entries = np.arange(starts[-1]) + np.repeat(self.indptr[generators] - starts[:-1], lengths)
+        rows = self.rows[entries]
+        return Columns(
+            starts[:-1].astype(np.int32),
+            (3 * place[rows // 3] + rows % 3).astype(np.int32),
+            self.values[entries],
+        )
+
+
+def _touching(bodies: NDArray[np.int64], count: int) -> tuple[NDArray[np.int64], ...]:
+    """For each of `count` bodies the rows of `bodies` that name it, in order."""
+    named = bodies.ravel()
+    order = np.argsort(named, kind="stable")
+    ends = np.searchsorted(named[order], np.arange(count + 1))
+    return tuple(order[ends[i] : ends[i + 1]] // bodies.shape[1] for i in range(count))
+
+
+class ColdProgram:
+    """The paper's baseline: a new model for every test, solved from nothing."""
+
+    def __init__(self, equilibrium: Equilibrium) -> None:
+        self._program = equilibrium
+        self._highs = _new_model()
+
+    def __call__(self, bodies: list[int], added: int) -> tuple[bool, int]:
+        """Whether the sub-assembly of these `bodies` stands, and the simplex iterations taken."""
+        program = self._program
+        self._highs.clearModel()
+        # One place more than there are bodies: index -1, a fixed body, is always present.
+        present = np.zeros(len(program.touching) + 1, dtype=bool)
+        present[bodies] = present[-1] = True
+        place = np.zeros(len(program.touching), dtype=np.int64)
+        place[bodies] = np.arange(len(bodies))
+        rows = (3 * np.asarray(bodies)[:, None] + np.arange(3)).ravel()
+        _add_rows(self._highs, program.right[rows])
+        generators = np.flatnonzero(present[program.bodies].all(axis=1))
+        _add_columns(self._highs, program.columns(generators, place))
+        return _decide(self._highs)
+
+
+class WarmProgram:
+    """One live model. A block added brings its rows and columns; the basis is kept.
+
+    When the search backs up, the rows and columns of the blocks taken away are deleted, and the
+    basis that decided the remaining sub-assembly is put back.
+    """
+
+    def __init__(self, equilibrium: Equilibrium) -> None:
+        self._program = equilibrium
+        self._highs = _new_model()
+        self._placed: list[_Placed] = []
+        # As in ColdProgram: index -1, a fixed body, is always present.
+        self._present = np.zeros(len(equilibrium.touching) + 1, dtype=bool)
+        self._present[-1] = True
+        self._place = np.zeros(len(equilibrium.touching), dtype=np.int64)
+
+    def __call__(self, bodies: list[int], added: int) -> tuple[bool, int]:
+        """Whether the sub-assembly of these `bodies` stands, and the simplex iterations taken."""
+        wanted = np.zeros(len(self._present), dtype=bool)
+        wanted[bodies] = True
+        wanted[added] = False  # it is placed last, so that the basis without it is kept
+        self._back_up_to(wanted)
+        for body in np.flatnonzero(wanted & ~self._present):
+            self._add(int(body))
+        self._add(added)
+        stands, pivots = _decide(self._highs)
+        self._placed[-1].basis = self._highs.getBasis() if stands else None
+        return stands, pivots
+
+    def _add(self, body: int) -> None:
+        program = self._program
+        self._present[body] = True
+        self._place[body] = len(self._placed)
+        touching = program.touching[body]
+        generators = touching[self._present[program.bodies[touching]].all(axis=1)]
+        _add_rows(self._highs, program.right[3 * body : 3 * body + 3])
+        _add_columns(self._highs, program.columns(generators, self._place))
+        self._placed.append(_Placed(body, len(generators)))
+
+    def _back_up_to(self, wanted: NDArray[np.bool_]) -> None:
+        """Delete the blocks placed last until all that remain are wanted."""
+        keep = len(self._placed)
+        for depth, placed in enumerate(self._placed):
+            if not wanted[placed.body]:
+                keep = depth
+                break
+        dropped = self._placed[keep:]
+        if not dropped:
+            return
+        del self._placed[keep:]
+        self._present[[placed.body for placed in dropped]] = False
+        count = sum(placed.columns for placed in dropped)
+        _delete_last(self._highs, columns=count, rows=3 * len(dropped))
+        if self._placed and self._placed[-1].basis is not None:
+            self._highs.setBasis(self._placed[-1].basis)
+
+
+@dataclass(slots=True)
+class _Placed:
+    """A block in the live model."""
+
+    body: int
+    columns: int
+    basis: Any = None
+    """HiGHS's basis when the sub-assembly up to this block was found to stand."""
+
+
+def _new_model() -> highspy.Highs:
+    highs = highspy.Highs()
+    highs.setOptionValue("output_flag", False)
+    highs.setOptionValue("threads", 1)
+    highs.setOptionValue("presolve", "off")
+    highs.setOptionValue("solver", "simplex")
+    highs.setOptionValue("simplex_strategy", PRIMAL_SIMPLEX)
+    return highs
+
+
+def _add_rows(highs: highspy.Highs, right: NDArray[np.float64]) -> None:
+    none = np.zeros(0, dtype=np.int32)
+    highs.addRows(
+        len(right), right, right, 0, np.zeros(len(right), dtype=np.int32), none, np.zeros(0)
+    )
+
+
+def _add_columns(highs: highspy.Highs, columns: Columns) -> None:
+    n = len(columns)
+    if n:
+        infinite = np.full(n, highspy.kHighsInf)
+        zero = np.zeros(n)
+        highs.addCols(
+            n, zero, zero, infinite, len(columns.rows), columns.starts, columns.rows, columns.values
+        )
+
+
+def _delete_last(highs: highspy.Highs, columns: int, rows: int) -> None:
+    first = highs.getNumCol() - columns
+    highs.deleteCols(columns, np.arange(first, first + columns, dtype=np.int32))
+    first = highs.getNumRow() - rows
+    highs.deleteRows(rows, np.arange(first, first + rows, dtype=np.int32))
+
+
+def _decide(highs: highspy.Highs) -> tuple[bool, int]:
+    """Solve, and by the interior point method if the simplex method ends without an answer."""
+    highs.run()
+    pivots = int(highs.getInfo().simplex_iteration_count)
+    stands = _answer(highs)
+    if stands is None:
+        second = _new_model()
+        second.passModel(highs.getLp())
+        second.setOptionValue("solver", "ipm")
+        second.run()
+        stands = _answer(second)
+        if stands is None:
+            raise StaticsError(
+                "HiGHS decided a stability test neither by the simplex method "
+                f"({highs.modelStatusToString(highs.getModelStatus())}) nor by the interior point "
+                f"method ({second.modelStatusToString(second.getModelStatus())})"
+            )
+    return stands, max(pivots, 0)
+
+
+def _answer(highs: highspy.Highs) -> bool | None:
+    """Feasible, infeasible, or no answer."""
+    status = highs.getModelStatus()
+    if status == highspy.HighsModelStatus.kOptimal:
+        return True
+    if status == highspy.HighsModelStatus.kInfeasible:
+        return False
+    return None

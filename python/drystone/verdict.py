@@ -1,0 +1,175 @@
+"""Does it stand? Forces if it does, and how it begins to fall if it does not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from drystone import _core
+from drystone.scene import Scene
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class ContactForce:
+    """The force that body `a` exerts on body `b` at one contact point, in newtons."""
+
+    a: str
+    b: str
+    feature: str
+    point: tuple[float, float]
+    """(x, y) in metres."""
+    normal: tuple[float, float]
+    """Unit vector from `a` into `b`."""
+    normal_force: float
+    """N along `normal`; never negative: contacts push, they do not pull."""
+    tangential_force: float
+    """N along `normal` turned a quarter counter-clockwise."""
+    force: tuple[float, float]
+    """(x, y) in N."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Verdict:
+    """The answer of `check`."""
+
+    stable: bool
+    """An equilibrium within the friction cones exists. Without friction this is sufficient for
+    standing; with friction it is necessary."""
+    status: str
+    """"solved", or why the solver stopped without an answer (then `stable` is False)."""
+    forces: tuple[ContactForce, ...]
+    """One entry a contact point of the bodies checked."""
+    names: tuple[str, ...]
+    """The movable bodies checked, in the order of the rows of `accelerations`."""
+    accelerations: NDArray[np.float64]
+    """(bodies, 3): x and y in m/s^2, and the angular one in rad/s^2, counter-clockwise."""
+    falling: tuple[str, ...]
+    """Names of the bodies that accelerate."""
+    pivots: int
+    """Major plus minor cycles, as in the paper's Table I."""
+    major_cycles: int
+    minor_cycles: int
+    residual: float
+    """How far the computed solution is from satisfying its problem, in the problem's scale."""
+    seconds: float
+    """Wall time of the solve."""
+    scene: Scene = field(repr=False)
+    """The scene checked."""
+
+    @classmethod
+    def _of(cls, core: _core.Verdict, scene: Scene) -> Verdict:
+        forces = tuple(
+            ContactForce(
+                f.a,
+                f.b,
+                f.feature,
+                f.point,
+                f.normal,
+                f.normal_force,
+                f.tangential_force,
+                f.force,
+            )
+            for f in core.forces
+        )
+        return cls(
+            core.stable,
+            core.status,
+            forces,
+            tuple(core.names),
+            core.accelerations,
+            tuple(core.falling),
+            core.pivots,
+            core.major_cycles,
+            core.minor_cycles,
+            core.residual,
+            core.seconds,
+            scene,
+        )
+
+    def acceleration(self, name: str) -> NDArray[np.float64]:
+        """(x, y, angular) of the body called `name`, in m/s^2 and rad/s^2."""
+        try:
+            row: NDArray[np.float64] = self.accelerations[self.names.index(name)]
+        except ValueError:
+            raise _core.SceneError(f"{name!r} is not a movable body of this check") from None
+        return row
+
+    def __str__(self) -> str:
+        work = f"{self.pivots} pivots, residual {self.residual:.1e}"
+        if self.status != "solved":
+            return f"No answer ({self.status}): {work}."
+        if self.stable:
+            return f"Stands: {len(self.names)} blocks, {len(self.forces)} contact points; {work}."
+        names = shorten(self.falling)
+        return f"Falls: {len(self.falling)} of {len(self.names)} blocks ({names}); {work}."
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the scene, in types that JSON knows."""
+        return {
+            "stable": self.stable,
+            "status": self.status,
+            "falling": list(self.falling),
+            "accelerations": {
+                name: row.tolist() for name, row in zip(self.names, self.accelerations, strict=True)
+            },
+            "forces": [
+                {
+                    "a": f.a,
+                    "b": f.b,
+                    "feature": f.feature,
+                    "point": list(f.point),
+                    "normal": list(f.normal),
+                    "normal_force": f.normal_force,
+                    "tangential_force": f.tangential_force,
+                    "force": list(f.force),
+                }
+                for f in self.forces
+            ],
+            "pivots": self.pivots,
+            "major_cycles": self.major_cycles,
+            "minor_cycles": self.minor_cycles,
+            "residual": self.residual,
+            "seconds": self.seconds,
+        }
+
+    def draw(self, path: str | PathLike[str]) -> None:
+        """Write a picture of the forces, or of the fall; the name ends in .svg or .png."""
+        from drystone import pictures
+
+        pictures.save(pictures.verdict_figure(self), path)
+
+    def _repr_svg_(self) -> str:
+        from drystone import pictures
+
+        return pictures.svg(pictures.verdict_figure(self))
+
+
+def check(scene: Scene, blocks: Iterable[str] | None = None) -> Verdict:
+    """Compute the contact forces and accelerations of `scene` at rest.
+
+    `blocks` names the movable bodies of a sub-assembly; fixed bodies are always there. By default
+    every body is. Raises SceneError for an unknown name or bodies that overlap.
+
+    >>> import drystone as ds
+    >>> verdict = ds.check(ds.scenes.column(4))
+    >>> verdict.stable
+    True
+    """
+    if isinstance(blocks, str):
+        raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
+    names = None if blocks is None else list(blocks)
+    return Verdict._of(_core.check(scene._core, names), scene)
+
+
+def shorten(names: Iterable[str], limit: int = 8) -> str:
+    """The first few names, and how many more there are."""
+    every = list(names)
+    if len(every) <= limit:
+        return ", ".join(every)
+    return ", ".join(every[:limit]) + f" and {len(every) - limit} more"
