@@ -62,7 +62,7 @@ class Scene:
 
 @final
 class Body:
-    """A snapshot of one body. `vertices` is (n, 2), world coordinates, metres, counter-clockwise."""
+    """A snapshot of one body. `vertices` is (n, 2): world coordinates, counter-clockwise."""
 
     name: str
     fixed: bool

@@ -114,7 +114,8 @@ class Scene:
         """Add a box and return its name.
 
         `center` and `size` (width, height) are in metres, `angle` in radians counter-clockwise,
-        `density` in kg/m^2. Without a `name` the body is called "b0", "b1", ... by its place in the scene.
+        `density` in kg/m^2. Without a `name` the body is called "b0", "b1", ... by its place in
+        the scene.
 
         Raises SceneError, naming the body and the fix, for numbers that are not usable, a name
         already taken, or a box that overlaps another body.

@@ -1,0 +1,91 @@
+# make demo   build, run the main job, show its results
+# make test   build, run every check
+# Both start from a fresh clone: all they need is Rust, Python 3.10 or newer and a C compiler.
+
+PYTHON ?= python3
+RUST_NEEDED := 1.88
+VENV := $(CURDIR)/.venv
+BIN := $(VENV)/bin
+OUT := out/demo
+PIP := $(BIN)/pip --disable-pip-version-check --quiet
+# One interpreter and one virtual environment for every tool, whatever is active in the shell.
+export VIRTUAL_ENV := $(VENV)
+export PYO3_PYTHON := $(BIN)/python
+unexport CONDA_PREFIX
+
+has = $(shell command -v $(1) 2>/dev/null)
+answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
+
+.NOTPARALLEL:
+.PHONY: help demo test build lint rust-tests python-tests types tools test-tools clean
+
+help:
+	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
+	@echo "make test    every test and check"
+	@echo "make build   only build, into .venv"
+	@echo "make lint    only formatting, lints and types"
+	@echo "make clean   remove what the others made"
+
+demo: build
+	@echo "== planning the 84-block random assembly"
+	@mkdir -p $(OUT)
+	@$(BIN)/drystone plan random_stack:84 -o $(OUT)/plan.svg
+	@echo "== the paper's Table I and Figs. 5 to 7"
+	@$(BIN)/drystone bench paper -o $(OUT)
+	@echo "Done. Pictures and table are in $(OUT)/"
+
+# The wheel's build and the tests share the release profile: dependencies are compiled once.
+test: test-tools build rust-tests python-tests lint
+	@echo "All tests and checks passed."
+
+build: $(VENV)/.ready
+	@echo "== building the core (release; a minute or two the first time)"
+	@$(BIN)/maturin develop --release --quiet --extras dev
+
+rust-tests: test-tools
+	@echo "== cargo test"
+	@cargo test --release --workspace --quiet
+
+python-tests: build
+	@echo "== pytest"
+	@$(BIN)/pytest
+
+lint: test-tools build types
+	@echo "== cargo fmt, cargo clippy"
+	@cargo fmt --all --check
+	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
+	@echo "== ruff"
+	@$(BIN)/ruff check --quiet
+	@$(BIN)/ruff format --check --quiet
+
+types: build
+	@echo "== mypy, stubtest"
+	@$(BIN)/mypy
+	@$(BIN)/python -m mypy.stubtest drystone._core
+
+$(VENV)/.ready: pyproject.toml | tools
+	@echo "== creating .venv"
+	@$(PYTHON) -m venv $(VENV)
+	@$(PIP) install "maturin>=1.9,<2"
+	@touch $@
+
+tools:
+	$(if $(call has,cargo),,$(error Rust is missing: install it from https://rustup.rs))
+	$(if $(call answers,rustc --version | awk '{ split($$2, v, "."); \
+	    split("$(RUST_NEEDED)", n, "."); exit !(v[1] > n[1] || v[1] == n[1] && v[2] + 0 >= n[2] + 0) }'),,\
+	    $(error Rust $(RUST_NEEDED) or newer is needed: run "rustup update stable"))
+	$(if $(call answers,$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 10))"),,\
+	    $(error Python 3.10 or newer is missing: install it from https://python.org or set PYTHON=...))
+	$(if $(call answers,$(PYTHON) -c "import ensurepip; import venv"),,\
+	    $(error Python's venv module is missing: install it (on Debian and Ubuntu: apt install python3-venv)))
+	$(if $(call has,cc)$(call has,gcc)$(call has,clang),,\
+	    $(error A C compiler is missing: install one (on Debian and Ubuntu: apt install build-essential)))
+	@:
+
+test-tools: tools
+	$(if $(call answers,cargo fmt --version && cargo clippy --version),,\
+	    $(error rustfmt or clippy is missing: run "rustup component add rustfmt clippy"))
+	@:
+
+clean:
+	rm -rf $(VENV) target out .mypy_cache .pytest_cache .ruff_cache
