@@ -9,15 +9,21 @@
 //! - [`scene`]: gravity, friction and blocks, each checked when it is added.
 //! - [`geometry`]: convex polygons, their poses, areas and moments.
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
+//! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
+//! - [`check`]: does it stand? - [`mod@plan`]: in which order does it come apart without falling?
 //!
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
 
+pub mod check;
 pub mod contact;
 pub mod error;
+pub mod formulate;
 pub mod geometry;
+pub mod plan;
 pub mod scene;
 mod suggest;
 
+pub use check::{Verdict, check};
 pub use contact::{Contact, ContactId, ContactSet, Feature, find_contacts};
 pub use error::{FileError, SceneError};
 pub use scene::{Body, BodyOptions, Scene};

@@ -58,13 +58,11 @@ pub struct Solver {
     ray: Option<Vec<f64>>,
 }
 
-/// A complementary state to return to: which rows are present, considered and active, and the values.
+/// A solved state to return to: what is known of each row, and the active rows with their values.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
     role: Vec<Role>,
-    active: Vec<usize>,
-    z: Vec<f64>,
-    w: Vec<f64>,
+    active: Vec<(usize, f64)>,
 }
 
 /// How a major cycle ended.
@@ -186,21 +184,22 @@ impl Solver {
         Ok(())
     }
 
-    /// The state as it is, to come back to with [`Self::restore`].
+    /// The solved state, to come back to with [`Self::restore`].
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
             role: self.role.clone(),
-            active: self.active.members().to_vec(),
-            z: self.z.clone(),
-            w: self.w.clone(),
+            active: self.active.members().iter().map(|&i| (i, self.z[i])).collect(),
         }
     }
 
     /// Returns to a snapshot of this solver. The factor is moved by the rows in which the active sets differ.
     pub fn restore(&mut self, snapshot: &Snapshot) {
-        let mut wanted = vec![false; self.problem.len()];
-        for &i in &snapshot.active {
+        self.role.copy_from_slice(&snapshot.role);
+        self.z.fill(0.0);
+        let mut wanted = vec![false; self.z.len()];
+        for &(i, z) in &snapshot.active {
             wanted[i] = true;
+            self.z[i] = z;
         }
         for i in self.active.members().to_vec() {
             if !wanted[i] {
@@ -208,11 +207,8 @@ impl Solver {
                 self.active.remove(i);
             }
         }
-        self.role.copy_from_slice(&snapshot.role);
-        self.z.copy_from_slice(&snapshot.z);
-        self.w.copy_from_slice(&snapshot.w);
         let mut lost = false;
-        for &i in &snapshot.active {
+        for &(i, _) in &snapshot.active {
             if !self.active.contains(i) {
                 lost |= self.factor.insert(&self.m, i).is_err();
                 self.active.insert(i);
@@ -221,6 +217,7 @@ impl Solver {
         if lost {
             self.refactor();
         }
+        self.recompute_w();
     }
 
     /// Drives every violated row that is present to feasibility.
@@ -284,12 +281,10 @@ impl Solver {
     /// decide the order of a symmetric structure.
     fn most_violated(&self) -> Option<usize> {
         const EQUAL: f64 = 1e-9;
-        let violation = |i: usize| if self.role[i] == Role::Absent { 0.0 } else { -self.w[i] };
-        let worst = (0..self.w.len()).map(violation).fold(0.0, f64::max);
-        let floor = worst * (1.0 - EQUAL);
-        (worst > self.settings.feasibility * self.own_scale())
-            .then(|| (0..self.w.len()).find(|&i| violation(i) >= floor))
-            .flatten()
+        let threshold = self.settings.feasibility * self.own_scale();
+        let violated = |&i: &usize| self.role[i] != Role::Absent && self.w[i] < -threshold;
+        let worst = (0..self.w.len()).filter(violated).map(|i| self.w[i]).reduce(f64::min)?;
+        (0..self.w.len()).filter(violated).find(|&i| self.w[i] <= worst * (1.0 - EQUAL))
     }
 
     /// Drives `z_i` up until `w_i` is zero, keeping every row considered before feasible.

@@ -207,8 +207,8 @@ impl Span {
         let shared = self.high.along - self.low.along;
         if closed(&self.low) && closed(&self.high) && shared > tolerance {
             let ends = match role {
-                Role::ReferenceIsA => [self.low, self.high],
-                Role::ReferenceIsB => [self.high, self.low],
+                Role::ReferenceIsA => [self.high, self.low],
+                Role::ReferenceIsB => [self.low, self.high],
             };
             let numbered = ends.into_iter().enumerate();
             let points = numbered.map(|(k, end)| {

@@ -1,0 +1,225 @@
+//! The complete assembly's contact problem. Every sub-assembly's problem is a principal sub-problem of it.
+
+use super::{
+    block_set::BlockSet,
+    generator::{Generator, generators_of},
+};
+use crate::{
+    contact::{Contact, ContactSet, find_contacts},
+    error::SceneError,
+    scene::{Body, Scene},
+};
+use drystone_lcp::{Problem, SparseColumns};
+
+/// Contacts, generators and loads of a scene.
+#[derive(Debug, Clone)]
+pub struct Assembly {
+    bodies: Vec<Body>,
+    gravity: [f64; 2],
+    contacts: ContactSet,
+    movable: Vec<usize>,
+    generators: Vec<Generator>,
+    /// Generators that act on each movable block.
+    generators_on: Vec<Vec<usize>>,
+    /// Diagonal of `M^-1` for each movable block: 1/kg, 1/kg, 1/(kg m^2).
+    inverse_mass: Vec<[f64; 3]>,
+}
+
+/// The force that the first body of a contact exerts on the second, newtons.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactForce {
+    /// Index of the contact in [`Assembly::contacts`].
+    pub contact: usize,
+    /// Along the contact normal (first body into second): not negative.
+    pub normal: f64,
+    /// Along the normal turned 90 degrees counter-clockwise.
+    pub tangential: f64,
+    /// In world axes.
+    pub force: [f64; 2],
+}
+
+impl Assembly {
+    /// Finds the contacts of a scene and their generators.
+    ///
+    /// # Errors
+    /// [`SceneError::Overlap`] if blocks overlap.
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        let contacts = find_contacts(scene)?;
+        let bodies = scene.bodies().to_vec();
+        let movable: Vec<usize> = (0..bodies.len()).filter(|&i| !bodies[i].fixed).collect();
+        let mut block_of = vec![None; bodies.len()];
+        for (block, &body) in movable.iter().enumerate() {
+            block_of[body] = Some(block);
+        }
+        let generators: Vec<Generator> = contacts
+            .contacts
+            .iter()
+            .enumerate()
+            .flat_map(|(index, contact)| generators_of(index, contact, &bodies, |body| block_of[body]))
+            .collect();
+        let mut generators_on = vec![Vec::new(); movable.len()];
+        for (j, generator) in generators.iter().enumerate() {
+            for wrench in &generator.wrenches {
+                generators_on[wrench.block].push(j);
+            }
+        }
+        let inverse_mass = movable
+            .iter()
+            .map(|&body| {
+                let (mass, inertia) = (bodies[body].mass(), bodies[body].inertia());
+                [mass.recip(), mass.recip(), inertia.recip()]
+            })
+            .collect();
+        Ok(Self { gravity: scene.gravity(), bodies, contacts, movable, generators, generators_on, inverse_mass })
+    }
+
+    /// Number of movable blocks.
+    pub fn blocks(&self) -> usize {
+        self.movable.len()
+    }
+
+    /// The body of a movable block.
+    pub fn body(&self, block: usize) -> &Body {
+        &self.bodies[self.movable[block]]
+    }
+
+    /// Index in the scene of a movable block's body.
+    pub fn body_index(&self, block: usize) -> usize {
+        self.movable[block]
+    }
+
+    /// All bodies of the scene, fixed ones too.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// m/s^2.
+    pub fn gravity(&self) -> [f64; 2] {
+        self.gravity
+    }
+
+    /// Every contact point of the complete assembly.
+    pub fn contacts(&self) -> &[Contact] {
+        &self.contacts.contacts
+    }
+
+    /// Every generator of the complete assembly, in the order of the rows of its problem.
+    pub fn generators(&self) -> &[Generator] {
+        &self.generators
+    }
+
+    /// Generators that act on a movable block, ascending.
+    pub fn generators_on(&self, block: usize) -> &[usize] {
+        &self.generators_on[block]
+    }
+
+    /// Diagonal of `M^-1` of a movable block: 1/kg, 1/kg, 1/(kg m^2).
+    pub fn inverse_mass(&self, block: usize) -> [f64; 3] {
+        self.inverse_mass[block]
+    }
+
+    /// Applied wrench on a movable block: its weight, N, N, N m.
+    pub fn applied(&self, block: usize) -> [f64; 3] {
+        let mass = self.body(block).mass();
+        [mass * self.gravity[0], mass * self.gravity[1], 0.0]
+    }
+
+    /// `A = G' M^-1 G` (1/kg) and `b = G' M^-1 F` (m/s^2) of the complete assembly. Equation 8 of Loomis and
+    /// Balkcom: a sub-assembly's problem is the principal sub-problem on [`Self::rows`] of its blocks.
+    pub fn problem(&self) -> Problem {
+        let n = self.generators.len();
+        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        let mut sum = vec![0.0; n];
+        let mut seen = vec![usize::MAX; n];
+        for j in 0..n {
+            let start = indices.len();
+            for wrench in &self.generators[j].wrenches {
+                let inverse_mass = self.inverse_mass[wrench.block];
+                for &i in &self.generators_on[wrench.block] {
+                    if seen[i] != j {
+                        seen[i] = j;
+                        sum[i] = 0.0;
+                        indices.push(i);
+                    }
+                    sum[i] += self.coupling(i, wrench.block, wrench.value, inverse_mass);
+                }
+            }
+            indices[start..].sort_unstable();
+            data.extend(indices[start..].iter().map(|&i| sum[i]));
+            indptr.push(indices.len());
+        }
+        let b = self.generators.iter().map(|generator| self.free_acceleration(generator)).collect();
+        SparseColumns::new(n, indptr, indices, data)
+            .and_then(|a| Problem::new(a, b))
+            .expect("a validated scene has finite masses, positions and directions")
+    }
+
+    /// `g_i' M^-1 g_j` on one block.
+    fn coupling(&self, i: usize, block: usize, value: [f64; 3], inverse_mass: [f64; 3]) -> f64 {
+        let on_block = self.generators[i].wrenches.iter().filter(|wrench| wrench.block == block);
+        on_block.map(|wrench| (0..3).map(|k| wrench.value[k] * value[k] * inverse_mass[k]).sum::<f64>()).sum()
+    }
+
+    /// `g' M^-1 F`.
+    fn free_acceleration(&self, generator: &Generator) -> f64 {
+        let of = |block: usize, value: [f64; 3]| -> f64 {
+            let (applied, inverse_mass) = (self.applied(block), self.inverse_mass[block]);
+            (0..3).map(|k| value[k] * inverse_mass[k] * applied[k]).sum()
+        };
+        generator.wrenches.iter().map(|wrench| of(wrench.block, wrench.value)).sum()
+    }
+
+    /// Rows of the complete problem that belong to a sub-assembly: generators between its blocks, and between them
+    /// and fixed bodies.
+    pub fn rows(&self, blocks: &BlockSet) -> Vec<usize> {
+        let inside = |generator: &Generator| generator.wrenches.iter().all(|wrench| blocks.contains(wrench.block));
+        (0..self.generators.len()).filter(|&j| inside(&self.generators[j])).collect()
+    }
+
+    /// Rows that a block brings along when it joins a sub-assembly.
+    pub fn rows_added(&self, blocks: &BlockSet, added: usize) -> Vec<usize> {
+        let joins = |&j: &usize| {
+            let mut wrenches = self.generators[j].wrenches.iter();
+            wrenches.all(|wrench| wrench.block == added || blocks.contains(wrench.block))
+        };
+        self.generators_on[added].iter().copied().filter(joins).collect()
+    }
+
+    /// Accelerations `M^-1 (F + G f)` of the blocks of a sub-assembly, in the order of the set: m/s^2, m/s^2,
+    /// rad/s^2. `f(j)` is the magnitude of generator j, N, zero outside the sub-assembly.
+    pub fn accelerations(&self, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> Vec<[f64; 3]> {
+        blocks.iter().map(|block| self.acceleration(block, &f)).collect()
+    }
+
+    /// Acceleration of one movable block; see [`Self::accelerations`].
+    pub fn acceleration(&self, block: usize, f: impl Fn(usize) -> f64) -> [f64; 3] {
+        let mut wrench = self.applied(block);
+        for &j in &self.generators_on[block] {
+            let magnitude = f(j);
+            for part in self.generators[j].wrenches.iter().filter(|part| part.block == block) {
+                (0..3).for_each(|k| wrench[k] += magnitude * part.value[k]);
+            }
+        }
+        let inverse_mass = self.inverse_mass[block];
+        [0, 1, 2].map(|k| wrench[k] * inverse_mass[k])
+    }
+
+    /// The force at every contact point that has a generator among `rows` (ascending).
+    pub fn contact_forces(&self, rows: &[usize], f: impl Fn(usize) -> f64) -> Vec<ContactForce> {
+        let mut forces: Vec<ContactForce> = Vec::new();
+        for &j in rows {
+            let Generator { contact, direction, .. } = self.generators[j];
+            if forces.last().is_none_or(|last| last.contact != contact) {
+                forces.push(ContactForce { contact, normal: 0.0, tangential: 0.0, force: [0.0; 2] });
+            }
+            let [nx, ny] = self.contacts.contacts[contact].normal;
+            let [fx, fy] = direction.map(|d| d * f(j));
+            if let Some(total) = forces.last_mut() {
+                total.normal += fx * nx + fy * ny;
+                total.tangential += fy * nx - fx * ny;
+                total.force = [total.force[0] + fx, total.force[1] + fy];
+            }
+        }
+        forces
+    }
+}

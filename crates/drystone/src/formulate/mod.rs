@@ -1,0 +1,19 @@
+//! From contacts to a complementarity problem, and from its solution back to forces and accelerations.
+//!
+//! The only place that knows both geometry and the solver. With generalised velocities (3 a block), mass matrix
+//! `M`, applied wrench `F` and the generators' wrench columns `G`, forces are `G f`, `f >= 0`, accelerations are
+//! `M^-1 (F + G f)`, and
+//!
+//! ```text
+//! w = A f + b,    0 <= f  complementary to  w >= 0,    A = G' M^-1 G,    b = G' M^-1 F
+//! ```
+//!
+//! (Loomis and Balkcom 2006, equation 4; with friction this is the convex, maximum-dissipation form.)
+
+mod assembly;
+mod block_set;
+mod generator;
+
+pub use assembly::{Assembly, ContactForce};
+pub use block_set::BlockSet;
+pub use generator::{Generator, Wrench};

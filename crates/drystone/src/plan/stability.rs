@@ -1,0 +1,143 @@
+//! The stability tests of the planner: does this sub-assembly stand?
+
+use crate::{
+    check::all_at_rest,
+    error::SceneError,
+    formulate::{Assembly, BlockSet},
+};
+use drystone_lcp::{Settings, Snapshot, Solver, Status};
+
+/// What one test said, and what it cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TestOutcome {
+    /// Whether the sub-assembly stands.
+    pub stands: bool,
+    /// Pivots made.
+    pub pivots: usize,
+}
+
+/// Why a search could not go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The scene is not a valid assembly.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A stability test gave no answer.
+    #[error("the stability test gave no answer on a sub-assembly of {blocks} blocks: {reason}")]
+    NoAnswer {
+        /// Blocks in the sub-assembly.
+        blocks: usize,
+        /// What the test said.
+        reason: String,
+    },
+    /// A test from outside this crate failed with its own error.
+    #[error("the stability test failed: {0}")]
+    External(#[source] Box<dyn std::error::Error + Send + Sync>),
+}
+
+/// A stability test that follows the search. The search tells it where it stands: it tests a block on top of the
+/// current sub-assembly, and moves to the one just tested or back from it.
+pub trait StabilityTest {
+    /// Tests the current sub-assembly with `added` put on; `blocks` holds `added` already.
+    ///
+    /// # Errors
+    /// [`PlanError`] if no answer can be given.
+    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError>;
+
+    /// The sub-assembly just tested, which stands, becomes the current one.
+    fn descend(&mut self) {}
+
+    /// The current sub-assembly's parent becomes the current one.
+    fn backtrack(&mut self) {}
+}
+
+/// The tests of this crate by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Test {
+    /// Dantzig's method from scratch.
+    Lcp,
+    /// Dantzig's method from the solution of the stable parent.
+    Reuse,
+}
+
+fn solver_for(assembly: &Assembly) -> Solver {
+    Solver::new(assembly.problem(), Settings::default()).expect("A = G' M^-1 G is symmetric with a positive diagonal")
+}
+
+/// Solves what is present and reads the answer.
+fn solve(assembly: &Assembly, solver: &mut Solver, blocks: &BlockSet) -> Result<TestOutcome, PlanError> {
+    let before = solver.counts().pivots;
+    let no_answer = |reason: String| PlanError::NoAnswer { blocks: blocks.len(), reason };
+    match solver.solve().map_err(|error| no_answer(error.to_string()))? {
+        Status::Solved => Ok(TestOutcome {
+            stands: all_at_rest(assembly, blocks, |j| solver.z(j)),
+            pivots: solver.counts().pivots - before,
+        }),
+        status => Err(no_answer(format!("{} (residual {:.1e})", status.name(), solver.residual()))),
+    }
+}
+
+/// Every test solves its sub-assembly from scratch.
+#[derive(Debug)]
+pub struct FromScratch<'a> {
+    assembly: &'a Assembly,
+    solver: Solver,
+}
+
+impl<'a> FromScratch<'a> {
+    /// Analyses the complete assembly.
+    pub fn new(assembly: &'a Assembly) -> Self {
+        Self { assembly, solver: solver_for(assembly) }
+    }
+}
+
+impl StabilityTest for FromScratch<'_> {
+    fn test(&mut self, blocks: &BlockSet, _added: usize) -> Result<TestOutcome, PlanError> {
+        self.solver.clear();
+        self.solver.add_rows(&self.assembly.rows(blocks));
+        solve(self.assembly, &mut self.solver, blocks)
+    }
+}
+
+/// Every test starts from the solution of the stable sub-assembly without the block just added (Theorem 1). The
+/// factor follows the search and is never rebuilt.
+#[derive(Debug)]
+pub struct Reuse<'a> {
+    assembly: &'a Assembly,
+    solver: Solver,
+    /// States of the current sub-assembly and its ancestors, the current one last.
+    path: Vec<Snapshot>,
+    at_current: bool,
+}
+
+impl<'a> Reuse<'a> {
+    /// Analyses the complete assembly; the current sub-assembly is empty.
+    pub fn new(assembly: &'a Assembly) -> Self {
+        let solver = solver_for(assembly);
+        Self { assembly, path: vec![solver.snapshot()], solver, at_current: true }
+    }
+}
+
+impl StabilityTest for Reuse<'_> {
+    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
+        if !self.at_current
+            && let Some(current) = self.path.last()
+        {
+            self.solver.restore(current);
+        }
+        self.at_current = false;
+        self.solver.add_rows(&self.assembly.rows_added(blocks, added));
+        solve(self.assembly, &mut self.solver, blocks)
+    }
+
+    fn descend(&mut self) {
+        self.path.push(self.solver.snapshot());
+        self.at_current = true;
+    }
+
+    fn backtrack(&mut self) {
+        self.path.pop();
+        self.at_current = false;
+    }
+}
