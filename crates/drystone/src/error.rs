@@ -145,9 +145,7 @@ pub enum FileError {
         reason: String,
     },
     /// The text ends in the middle of the scene.
-    #[error(
-        "{file}: the file ends early, at line {line} column {column}: it was cut short, copy it again"
-    )]
+    #[error("{file}: the file ends early, at line {line} column {column}: it was cut short, copy it again")]
     Truncated {
         /// The file.
         file: String,

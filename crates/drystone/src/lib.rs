@@ -6,7 +6,8 @@
 //! scene -> geometry -> contact -> formulate -> drystone_lcp -> check | plan
 //! ```
 //!
-//! - [`scene`]: gravity, friction and blocks, each checked when it is added.
+//! - [`scene`]: gravity, friction and blocks, each checked when it is added. The built-in ones are
+//!   in [`scenes`], and [`io`] reads and writes them as versioned JSON.
 //! - [`geometry`]: convex polygons, their poses, areas and moments.
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
 //! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
@@ -19,8 +20,10 @@ pub mod contact;
 pub mod error;
 pub mod formulate;
 pub mod geometry;
+pub mod io;
 pub mod plan;
 pub mod scene;
+pub mod scenes;
 mod suggest;
 
 pub use check::{Verdict, check};

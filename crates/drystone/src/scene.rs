@@ -20,12 +20,7 @@ pub struct BodyOptions {
 
 impl Default for BodyOptions {
     fn default() -> Self {
-        Self {
-            name: None,
-            density: 1.0,
-            friction: None,
-            fixed: false,
-        }
+        Self { name: None, density: 1.0, friction: None, fixed: false }
     }
 }
 
@@ -62,9 +57,7 @@ impl Body {
     /// The corners in the world, metres, counter-clockwise.
     pub fn vertices(&self) -> Vec<[f64; 2]> {
         let corners = self.polygon.vertices().iter();
-        corners
-            .map(|&v| self.pose.transform(v).to_array())
-            .collect()
+        corners.map(|&v| self.pose.transform(v).to_array()).collect()
     }
 }
 
@@ -85,13 +78,7 @@ impl Scene {
         finite("the scene's gravity[0]", gravity[0])?;
         finite("the scene's gravity[1]", gravity[1])?;
         check_friction("the scene's friction", friction)?;
-        Ok(Self {
-            gravity,
-            friction,
-            contact_tolerance: None,
-            bodies: Vec::new(),
-            index: HashMap::new(),
-        })
+        Ok(Self { gravity, friction, contact_tolerance: None, bodies: Vec::new(), index: HashMap::new() })
     }
 
     /// The same scene with one contact tolerance, in metres, for every pair of blocks, instead of
@@ -117,24 +104,14 @@ impl Scene {
             positive(&format!("block \"{name}\": size[{axis}]"), size[axis])?;
         }
         finite(&format!("block \"{name}\": angle"), angle)?;
-        let pose = Pose {
-            position: center,
-            angle,
-        };
+        let pose = Pose { position: center, angle };
         self.push(name, Polygon::rectangle(size), Some(size), pose, options)
     }
 
     /// Adds a convex polygon by its corners in the world, counter-clockwise, in metres. Corners on
     /// a straight line are merged. Returns the block's index.
-    pub fn add_polygon(
-        &mut self,
-        vertices: &[[f64; 2]],
-        options: BodyOptions,
-    ) -> Result<usize, SceneError> {
-        let frame = Pose {
-            position: [0.0, 0.0],
-            angle: 0.0,
-        };
+    pub fn add_polygon(&mut self, vertices: &[[f64; 2]], options: BodyOptions) -> Result<usize, SceneError> {
+        let frame = Pose { position: [0.0, 0.0], angle: 0.0 };
         self.add_placed_polygon(vertices, frame, options)
     }
 
@@ -148,17 +125,11 @@ impl Scene {
     ) -> Result<usize, SceneError> {
         let name = self.free_name(&options)?;
         for axis in 0..2 {
-            finite(
-                &format!("block \"{name}\": position[{axis}]"),
-                frame.position[axis],
-            )?;
+            finite(&format!("block \"{name}\": position[{axis}]"), frame.position[axis])?;
         }
         finite(&format!("block \"{name}\": angle"), frame.angle)?;
         let (polygon, centroid) =
-            Polygon::from_vertices(vertices).map_err(|fault| SceneError::BadShape {
-                body: name.clone(),
-                fault,
-            })?;
+            Polygon::from_vertices(vertices).map_err(|fault| SceneError::BadShape { body: name.clone(), fault })?;
         let position = frame.transform(centroid.into()).to_array();
         self.push(name, polygon, None, Pose { position, ..frame }, options)
     }
@@ -171,30 +142,14 @@ impl Scene {
         pose: Pose,
         options: BodyOptions,
     ) -> Result<usize, SceneError> {
-        let BodyOptions {
-            density,
-            friction,
-            fixed,
-            ..
-        } = options;
+        let BodyOptions { density, friction, fixed, .. } = options;
         positive(&format!("block \"{name}\": density"), density)?;
         if let Some(friction) = friction {
             check_friction(&format!("block \"{name}\": friction"), friction)?;
         }
-        let body = Body {
-            name,
-            polygon,
-            box_size,
-            pose,
-            density,
-            friction,
-            fixed,
-        };
+        let body = Body { name, polygon, box_size, pose, density, friction, fixed };
         positive(&format!("block \"{}\": mass", body.name), body.mass())?;
-        positive(
-            &format!("block \"{}\": moment of inertia", body.name),
-            body.inertia(),
-        )?;
+        positive(&format!("block \"{}\": moment of inertia", body.name), body.inertia())?;
         let index = self.bodies.len();
         self.index.insert(body.name.clone(), index);
         self.bodies.push(body);
@@ -206,10 +161,7 @@ impl Scene {
     fn free_name(&self, options: &BodyOptions) -> Result<String, SceneError> {
         if let Some(name) = &options.name {
             return match self.index.get(name) {
-                Some(&index) => Err(SceneError::DuplicateName {
-                    name: name.clone(),
-                    index,
-                }),
+                Some(&index) => Err(SceneError::DuplicateName { name: name.clone(), index }),
                 None if name.is_empty() => Err(SceneError::EmptyName),
                 None => Ok(name.clone()),
             };
@@ -231,13 +183,10 @@ impl Scene {
 
     /// Index of the block with this name.
     pub fn index_of(&self, name: &str) -> Result<usize, SceneError> {
-        self.index
-            .get(name)
-            .copied()
-            .ok_or_else(|| SceneError::UnknownName {
-                name: name.to_owned(),
-                nearest: nearest(name, self.bodies.iter().map(|body| body.name.as_str())),
-            })
+        self.index.get(name).copied().ok_or_else(|| SceneError::UnknownName {
+            name: name.to_owned(),
+            nearest: nearest(name, self.bodies.iter().map(|body| body.name.as_str())),
+        })
     }
 
     /// Acceleration of gravity, m/s^2.
@@ -264,36 +213,15 @@ impl Scene {
 }
 
 fn finite(place: &str, value: f64) -> Result<(), SceneError> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(SceneError::NotFinite {
-            place: place.to_owned(),
-            value,
-        })
-    }
+    if value.is_finite() { Ok(()) } else { Err(SceneError::NotFinite { place: place.to_owned(), value }) }
 }
 
 fn positive(place: &str, value: f64) -> Result<(), SceneError> {
     finite(place, value)?;
-    if value > 0.0 {
-        Ok(())
-    } else {
-        Err(SceneError::NotPositive {
-            place: place.to_owned(),
-            value,
-        })
-    }
+    if value > 0.0 { Ok(()) } else { Err(SceneError::NotPositive { place: place.to_owned(), value }) }
 }
 
 fn check_friction(place: &str, value: f64) -> Result<(), SceneError> {
     finite(place, value)?;
-    if value >= 0.0 {
-        Ok(())
-    } else {
-        Err(SceneError::NegativeFriction {
-            place: place.to_owned(),
-            value,
-        })
-    }
+    if value >= 0.0 { Ok(()) } else { Err(SceneError::NegativeFriction { place: place.to_owned(), value }) }
 }

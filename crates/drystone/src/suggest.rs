@@ -2,10 +2,7 @@
 
 /// The candidate with the smallest edit distance to `given`, if at most a third of its letters
 /// (and at least one) would have to change. Ties go to the first candidate.
-pub(crate) fn nearest<'a>(
-    given: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<String> {
+pub(crate) fn nearest<'a>(given: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let limit = (given.chars().count() / 3).max(1);
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {

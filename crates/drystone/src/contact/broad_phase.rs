@@ -11,10 +11,7 @@ use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
 /// pairs, so that no touching pair is missed. Work: n log n for blocks of like size.
 pub(super) fn candidate_pairs(scene: &Scene) -> Vec<[usize; 2]> {
     let bodies = scene.bodies();
-    let boxes: Vec<Aabb> = bodies
-        .iter()
-        .map(|body| bounding_box(body).loosened(tolerance_of(scene, body)))
-        .collect();
+    let boxes: Vec<Aabb> = bodies.iter().map(|body| bounding_box(body).loosened(tolerance_of(scene, body))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     let mut pairs = Vec::new();
     for (i, reach) in boxes.iter().enumerate() {
@@ -34,10 +31,5 @@ pub(super) fn candidate_pairs(scene: &Scene) -> Vec<[usize; 2]> {
 }
 
 fn bounding_box(body: &Body) -> Aabb {
-    Aabb::from_points(
-        body.polygon
-            .vertices()
-            .iter()
-            .map(|&v| body.pose.transform(v)),
-    )
+    Aabb::from_points(body.polygon.vertices().iter().map(|&v| body.pose.transform(v)))
 }

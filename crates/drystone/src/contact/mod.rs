@@ -62,10 +62,7 @@ pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
     let bodies = scene.bodies();
     let pairs = broad_phase::candidate_pairs(scene);
     let outlines: Vec<Outline> = bodies.iter().map(Outline::of).collect();
-    let mut found = ContactSet {
-        candidate_pairs: pairs.len(),
-        ..ContactSet::default()
-    };
+    let mut found = ContactSet { candidate_pairs: pairs.len(), ..ContactSet::default() };
     let mut deepest: Option<([usize; 2], f64)> = None;
     for &[a, b] in &pairs {
         let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
@@ -80,10 +77,7 @@ pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
                 }
             }
             Touch::At(points) => found.contacts.extend(points.into_iter().map(|p| Contact {
-                id: ContactId {
-                    bodies: [a, b],
-                    feature: p.feature,
-                },
+                id: ContactId { bodies: [a, b], feature: p.feature },
                 bodies: [a, b],
                 point: (origin + p.point).to_array(),
                 normal: p.normal.to_array(),

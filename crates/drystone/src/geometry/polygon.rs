@@ -98,12 +98,7 @@ impl Polygon {
         let (area, _) = details::convex_polygon_area_and_center_of_mass(&vertices);
         let second_moment = MassProperties::from_convex_polygon(1.0, &vertices).principal_inertia();
         let width = least_width(&vertices);
-        Self {
-            vertices,
-            area,
-            second_moment,
-            width,
-        }
+        Self { vertices, area, second_moment, width }
     }
 
     /// The corners relative to the centroid, metres, counter-clockwise.
@@ -130,9 +125,7 @@ impl Polygon {
 /// Refuses what is no polygon at all; returns the larger side of the bounding box.
 fn check_corners(corners: &[Vector]) -> Result<f64, ShapeFault> {
     if corners.len() < 3 {
-        return Err(ShapeFault::TooFewVertices {
-            count: corners.len(),
-        });
+        return Err(ShapeFault::TooFewVertices { count: corners.len() });
     }
     if let Some(vertex) = corners.iter().position(|v| !v.is_finite()) {
         return Err(ShapeFault::NotFinite { vertex });
@@ -146,9 +139,7 @@ fn check_corners(corners: &[Vector]) -> Result<f64, ShapeFault> {
             return Err(ShapeFault::RepeatedVertex { first, second });
         }
     }
-    let twice_area: f64 = sides(corners)
-        .map(|(a, b)| (a - corners[0]).perp_dot(b - corners[0]))
-        .sum();
+    let twice_area: f64 = sides(corners).map(|(a, b)| (a - corners[0]).perp_dot(b - corners[0])).sum();
     if twice_area.abs() <= FLAT * extent * extent {
         Err(ShapeFault::ZeroArea)
     } else if twice_area < 0.0 {
@@ -213,10 +204,7 @@ fn centred(corners: Vec<Vector>, extent: f64) -> (Vec<Vector>, Vector) {
 fn least_width(vertices: &[Vector]) -> f64 {
     let across = |(a, b): (Vector, Vector)| {
         let inwards = (b - a).normalize_or_zero().perp();
-        vertices
-            .iter()
-            .map(|v| inwards.dot(*v - a))
-            .fold(0.0, f64::max)
+        vertices.iter().map(|v| inwards.dot(*v - a)).fold(0.0, f64::max)
     };
     sides(vertices).map(across).fold(f64::INFINITY, f64::min)
 }

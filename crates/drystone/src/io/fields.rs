@@ -1,0 +1,96 @@
+//! One JSON object of a scene file, read field by field with errors that say where.
+
+use crate::error::FileError;
+use crate::suggest::nearest;
+use serde_json::{Map, Value};
+
+/// A JSON object, the file it is from and what it describes.
+pub(super) struct Fields<'a> {
+    pub file: &'a str,
+    pub place: String,
+    map: &'a Map<String, Value>,
+}
+
+impl<'a> Fields<'a> {
+    /// `value` as an object with only the `allowed` fields.
+    pub fn of(file: &'a str, place: String, value: &'a Value, allowed: &[&str]) -> Result<Self, FileError> {
+        let Value::Object(map) = value else {
+            return Err(wrong_type(file, place, value, "an object: {...}"));
+        };
+        if let Some(field) = map.keys().find(|field| !allowed.contains(&field.as_str())) {
+            return Err(FileError::UnknownField {
+                file: file.to_owned(),
+                place,
+                field: field.clone(),
+                nearest: nearest(field, allowed.iter().copied()),
+                allowed: allowed.join(", "),
+            });
+        }
+        Ok(Self { file, place, map })
+    }
+
+    /// The value of a field; null counts as left out.
+    pub fn get(&self, field: &str) -> Option<&'a Value> {
+        self.map.get(field).filter(|value| !value.is_null())
+    }
+
+    pub fn required(&self, field: &str) -> Result<&'a Value, FileError> {
+        self.get(field).ok_or_else(|| self.missing(&format!("\"{field}\"")))
+    }
+
+    pub fn missing(&self, field: &str) -> FileError {
+        FileError::MissingField { file: self.file.to_owned(), place: self.place.clone(), field: field.to_owned() }
+    }
+
+    pub fn string(&self, field: &str) -> Result<Option<String>, FileError> {
+        self.read(field, "a text in quotes", |value| value.as_str().map(str::to_owned))
+    }
+
+    pub fn flag(&self, field: &str) -> Result<Option<bool>, FileError> {
+        self.read(field, "true or false", Value::as_bool)
+    }
+
+    pub fn number(&self, field: &str) -> Result<Option<f64>, FileError> {
+        self.read(field, "a number", Value::as_f64)
+    }
+
+    pub fn pair(&self, field: &str) -> Result<Option<[f64; 2]>, FileError> {
+        self.read(field, "two numbers: [x, y]", as_pair)
+    }
+
+    pub fn pairs(&self, field: &str) -> Result<Option<Vec<[f64; 2]>>, FileError> {
+        self.read(field, "a list of points: [[x, y], ...]", |value| value.as_array()?.iter().map(as_pair).collect())
+    }
+
+    fn read<T>(
+        &self,
+        field: &str,
+        expected: &str,
+        convert: impl Fn(&'a Value) -> Option<T>,
+    ) -> Result<Option<T>, FileError> {
+        let Some(value) = self.get(field) else { return Ok(None) };
+        let place = || format!("{}: \"{field}\"", self.place);
+        convert(value).map(Some).ok_or_else(|| wrong_type(self.file, place(), value, expected))
+    }
+}
+
+/// An error for a value of the wrong kind; long values are cut.
+pub(super) fn wrong_type(file: &str, place: String, value: &Value, expected: &str) -> FileError {
+    FileError::WrongType { file: file.to_owned(), place, found: brief(value), expected: expected.to_owned() }
+}
+
+/// The value as JSON, cut to some 40 letters.
+pub(super) fn brief(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(40) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}
+
+fn as_pair(value: &Value) -> Option<[f64; 2]> {
+    match value.as_array()?.as_slice() {
+        [x, y] => Some([x.as_f64()?, y.as_f64()?]),
+        _ => None,
+    }
+}

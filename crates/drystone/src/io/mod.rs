@@ -1,0 +1,35 @@
+//! Scenes as versioned JSON.
+//!
+//! ```json
+//! {
+//!   "format": "drystone-scene", "version": 1, "dimension": 2,
+//!   "gravity": [0.0, -9.81], "friction": 0.5,
+//!   "bodies": [
+//!     {"name": "ground", "box": {"size": [4.0, 1.0]}, "position": [0.0, -0.5], "fixed": true},
+//!     {"name": "wedge", "polygon": {"vertices": [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]}}
+//!   ]
+//! }
+//! ```
+//!
+//! Lengths are metres, angles radians, densities kg/m^2. A body has a "box" or a "polygon" in its
+//! own frame, which stands at "position", turned by "angle" (counter-clockwise). Left out are:
+//! name (see [`BodyOptions`](crate::BodyOptions)), position (the origin), angle (0), density (1),
+//! friction (the scene's), fixed (false), and the scene's contact_tolerance (see
+//! [`contact`](crate::contact)). `docs/scene.schema.json` is the format's JSON Schema.
+//!
+//! Numbers are written with as many digits as they need to come back bit for bit.
+
+mod fields;
+mod file;
+mod read;
+mod write;
+
+pub use file::{load, save};
+pub use read::from_json;
+pub use write::to_json;
+
+/// What a scene file's "format" says.
+pub const FORMAT: &str = "drystone-scene";
+
+/// The version written, and the only one so far.
+pub const VERSION: u64 = 1;

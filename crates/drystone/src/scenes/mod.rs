@@ -1,0 +1,62 @@
+//! Built-in scenes: the paper's, and structures whose limits are known in closed form.
+//!
+//! All stand under gravity (0, -9.81) m/s^2, with density 1 kg/m^2. Movable blocks are named by
+//! numbers from "1", fixed ones by what they are ("ground", "table", "plane"). The planning scenes
+//! of the paper (column, pyramid, random stack, five blocks) are frictionless by default.
+//!
+//! Each scene is a function; [`build`] makes one by name and [`catalogue`] lists them all.
+
+mod arch;
+mod builder;
+mod entry;
+mod five_blocks;
+mod overhang;
+mod paper_stacks;
+mod random_stack;
+mod slope;
+mod wall;
+
+pub use arch::arch;
+pub use entry::{Parameter, ParameterKind, SceneEntry};
+pub use five_blocks::five_blocks;
+pub use overhang::{diamond, harmonic_stack, inverted_triangle};
+pub use paper_stacks::{column, pyramid};
+pub use random_stack::{random_stack, random_stack_where};
+pub use slope::slope;
+pub use wall::wall;
+
+use crate::error::SceneError;
+use crate::scene::Scene;
+use crate::suggest::nearest;
+use serde_json::Value;
+use std::collections::BTreeMap;
+
+/// Every built-in scene, in alphabetical order.
+pub fn catalogue() -> &'static [SceneEntry] {
+    &[
+        arch::ENTRY,
+        paper_stacks::COLUMN,
+        overhang::DIAMOND,
+        five_blocks::ENTRY,
+        overhang::HARMONIC_STACK,
+        overhang::INVERTED_TRIANGLE,
+        paper_stacks::PYRAMID,
+        random_stack::ENTRY,
+        slope::ENTRY,
+        wall::ENTRY,
+    ]
+}
+
+/// Builds a scene by name. Parameters left out take their defaults; an unknown name, an unknown
+/// parameter or a value of the wrong kind or out of range is an error that says what is accepted.
+pub fn build(name: &str, parameters: &BTreeMap<String, Value>) -> Result<Scene, SceneError> {
+    let names = catalogue().iter().map(|entry| entry.name);
+    match catalogue().iter().find(|entry| entry.name == name) {
+        Some(entry) => entry.build(parameters),
+        None => Err(SceneError::UnknownScene {
+            name: name.to_owned(),
+            nearest: nearest(name, names.clone()),
+            known: names.collect::<Vec<_>>().join(", "),
+        }),
+    }
+}

@@ -1,0 +1,181 @@
+//! Random planning scenes in the manner of the paper's Fig. 7.
+
+use super::builder::Builder;
+use super::entry::{SceneEntry, friction, integer, seed};
+use crate::check::check;
+use crate::error::SceneError;
+use crate::scene::Scene;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Steps per metre of all lengths, so that coordinates are exact in binary and tops that look
+/// level are.
+const STEPS: f64 = 1024.0;
+
+/// Widths are drawn evenly between these, heights are one of two, in steps.
+const WIDTHS: std::ops::RangeInclusive<i64> = 512..=2560;
+const HEIGHTS: [i64; 2] = [512, 1024];
+
+/// A block's centre of mass is at least this far within its supports, in steps (1/32 m): no block
+/// stands or falls by rounding alone.
+const MARGIN: i64 = 32;
+
+/// Places looked at for every block drawn; the lowest of the wanted kind is taken.
+const PLACES: usize = 8;
+
+/// Blocks drawn for one place in the stack before giving up.
+const ATTEMPTS: usize = 500;
+
+pub(super) const ENTRY: SceneEntry = SceneEntry {
+    name: "random_stack",
+    summary: "blocks of mixed sizes with overhangs and counterweights: the order matters",
+    parameters: &[
+        integer("blocks", 84, [1, 1000], "movable blocks"),
+        seed(1, "start of the pseudo-random sequence"),
+        friction(0.0),
+    ],
+    make: |g| random_stack(g.size(0), g.integer(1), g.number(2)),
+};
+
+/// A stack of `blocks` axis-aligned blocks on a fixed ground, the same for the same `seed`.
+///
+/// Blocks are dropped one by one; one is kept only where the stack then stands without friction
+/// (whatever `friction` the scene gets). So at least one stable order exists, but the numbers do
+/// not tell it: they go up level by level, whereas some overhanging block bears its load only once
+/// its counterweight lies.
+pub fn random_stack(blocks: usize, seed: u64, friction: f64) -> Result<Scene, SceneError> {
+    let stands = |scene: &Scene| check(scene, None).is_ok_and(|verdict| verdict.stable);
+    random_stack_where(blocks, seed, friction, stands)
+}
+
+/// The same with another rule: `accept` sees the frictionless stack with the new block on it (the
+/// blocks numbered as they were dropped) and says whether to keep it.
+pub fn random_stack_where(
+    blocks: usize,
+    seed: u64,
+    friction: f64,
+    mut accept: impl FnMut(&Scene) -> bool,
+) -> Result<Scene, SceneError> {
+    ENTRY.check(&[blocks as f64, seed as f64, friction])?;
+    let mut random = Pcg64::seed_from_u64(seed);
+    let ground = ground_width(blocks);
+    let mut skyline = Skyline::level(ground);
+    let mut placed: Vec<Placed> = Vec::with_capacity(blocks);
+    let mut trial = Builder::new(0.0)?;
+    lay_ground(&mut trial, ground)?;
+    while placed.len() < blocks {
+        let mut found = false;
+        for _ in 0..ATTEMPTS {
+            let Some(block) = draw(&mut random, &skyline, ground) else { continue };
+            let mut next = trial.clone();
+            block.add_to(&mut next)?;
+            if accept(next.scene()) {
+                (trial, found) = (next, true);
+                skyline.raise(&block);
+                placed.push(block);
+                break;
+            }
+        }
+        if !found {
+            return Err(gave_up(placed.len(), blocks));
+        }
+    }
+    // Level by level, each from the left.
+    placed.sort_by_key(|block| (block.bottom, block.left));
+    let mut builder = Builder::new(friction)?;
+    lay_ground(&mut builder, ground)?;
+    placed.iter().try_for_each(|block| block.add_to(&mut builder))?;
+    Ok(builder.finish())
+}
+
+/// A block on the stack, in steps.
+#[derive(Debug, Clone, Copy)]
+struct Placed {
+    left: i64,
+    bottom: i64,
+    width: i64,
+    height: i64,
+}
+
+impl Placed {
+    fn add_to(&self, builder: &mut Builder) -> Result<(), SceneError> {
+        let metres = |steps: i64| steps as f64 / STEPS;
+        let center = [metres(2 * self.left + self.width) / 2.0, metres(2 * self.bottom + self.height) / 2.0];
+        builder.block(center, [metres(self.width), metres(self.height)])
+    }
+}
+
+/// Draws a block and the place it is dropped at: half the time one that overhangs, if there is
+/// such a place, and of these the lowest. None if it would tip over wherever it was tried.
+fn draw(random: &mut Pcg64, skyline: &Skyline, ground: i64) -> Option<Placed> {
+    let width = random.random_range(WIDTHS);
+    let height = HEIGHTS[random.random_range(0..HEIGHTS.len())];
+    let want_overhang = random.random_range(0..2) == 0;
+    let mut best: Option<(bool, Placed)> = None;
+    for _ in 0..PLACES {
+        let left = random.random_range(-width / 2..=ground - width / 2);
+        let (bottom, [from, to]) = skyline.rest(left, left + width);
+        let middle = left + width / 2;
+        if middle < from + MARGIN || middle > to - MARGIN {
+            continue;
+        }
+        let wanted = (4 * (to - from) < 3 * width) == want_overhang;
+        let better = |(had, old): (bool, Placed)| (wanted, -bottom) > (had, -old.bottom);
+        if best.is_none_or(better) {
+            best = Some((wanted, Placed { left, bottom, width, height }));
+        }
+    }
+    best.map(|(_, block)| block)
+}
+
+/// The upper outline of the stack: pieces (left, right, top) from left to right, in steps.
+struct Skyline(Vec<[i64; 3]>);
+
+impl Skyline {
+    fn level(width: i64) -> Self {
+        Self(vec![[0, width, 0]])
+    }
+
+    /// Where a block from `left` to `right` comes to rest: its height, and the first and last
+    /// place where something bears it. Beside the ground there is nothing to rest on.
+    fn rest(&self, left: i64, right: i64) -> (i64, [i64; 2]) {
+        let below = || self.0.iter().filter(|[l, r, _]| *l < right && *r > left);
+        let bottom = below().map(|[_, _, top]| *top).max().unwrap_or(0);
+        let mut bearing = [right, left];
+        for [l, r, _] in below().filter(|[_, _, top]| *top == bottom) {
+            bearing = [bearing[0].min(*l).max(left), bearing[1].max(*r).min(right)];
+        }
+        (bottom, bearing)
+    }
+
+    /// Lays a block on top. What lies under an overhang is closed off for good.
+    fn raise(&mut self, block: &Placed) {
+        let (left, right) = (block.left, block.left + block.width);
+        let mut pieces = vec![[left, right, block.bottom + block.height]];
+        for &[l, r, top] in &self.0 {
+            pieces.extend([[l, r.min(left), top], [l.max(right), r, top]].iter().filter(|p| p[0] < p[1]));
+        }
+        pieces.sort_unstable();
+        self.0 = pieces;
+    }
+}
+
+/// Makes a stack about four fifths as high as wide: blocks cover 1.125 m^2 on average.
+fn ground_width(blocks: usize) -> i64 {
+    let metres = (1.25 * (1.125 * blocks as f64).sqrt()).max(3.0);
+    (metres * STEPS) as i64
+}
+
+fn lay_ground(builder: &mut Builder, width: i64) -> Result<(), SceneError> {
+    builder.ground("ground", 0.0, width as f64 / STEPS, 0.5)
+}
+
+fn gave_up(placed: usize, blocks: usize) -> SceneError {
+    SceneError::NotGenerated {
+        scene: ENTRY.name.to_owned(),
+        reason: format!(
+            "no place was found for block {} of {blocks} in {ATTEMPTS} attempts: take another seed",
+            placed + 1
+        ),
+    }
+}

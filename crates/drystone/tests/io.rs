@@ -1,0 +1,214 @@
+//! Scene files: exact round trips, errors that say file, place and fix, whole writes.
+
+use drystone::geometry::Pose;
+use drystone::{BodyOptions, FileError, Scene, SceneError, io, scenes};
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+const SOURCE: &str = "wall.json";
+
+fn error_of(text: &str) -> FileError {
+    match io::from_json(text, SOURCE) {
+        Err(SceneError::File(error)) => error,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// A file with the given bodies.
+fn with_bodies(bodies: &str) -> String {
+    format!(
+        r#"{{"format": "drystone-scene", "version": 1, "dimension": 2,
+            "gravity": [0, -9.81], "friction": 0.5, "bodies": [{bodies}]}}"#
+    )
+}
+
+/// A new folder of this test's own.
+fn folder(test: &str) -> PathBuf {
+    let path = std::env::temp_dir().join(format!("drystone-{}-{test}", std::process::id()));
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+#[test]
+fn every_built_in_scene_comes_back_as_it_was() {
+    for entry in scenes::catalogue() {
+        let scene = scenes::build(entry.name, &BTreeMap::new()).unwrap();
+        let text = io::to_json(&scene);
+        let again = io::from_json(&text, SOURCE).unwrap();
+        assert_eq!(again, scene, "{}", entry.name);
+        assert_eq!(io::to_json(&again), text);
+    }
+}
+
+#[test]
+fn all_fields_come_back() {
+    let mut scene = Scene::new([0.1, -9.0], 0.3).unwrap().with_contact_tolerance(1e-5).unwrap();
+    let options =
+        BodyOptions { name: Some("\"quoted\" \u{fc}ber\n".into()), density: 2400.0, friction: Some(0.0), fixed: true };
+    scene.add_box([-0.0, 1.0 / 3.0], [1e-300_f64.sqrt(), 1e150], 1e-17, options).unwrap();
+    scene.add_polygon(&[[1e6, 0.1], [1e6 + 1.0, 0.3], [1e6, 1.7]], BodyOptions::default()).unwrap();
+    let text = io::to_json(&scene);
+    let again = io::from_json(&text, SOURCE).unwrap();
+    assert_eq!(again, scene);
+    assert_eq!(io::to_json(&again), text, "also the sign of zero");
+}
+
+#[test]
+fn an_empty_scene_comes_back() {
+    let scene = Scene::new([0.0, 0.0], 0.0).unwrap();
+    assert_eq!(io::from_json(&io::to_json(&scene), SOURCE).unwrap(), scene);
+}
+
+proptest! {
+    /// Numbers of every size and a polygon anywhere, at any angle, survive bit for bit.
+    #[test]
+    fn any_polygon_comes_back_bit_for_bit(
+        x in -1e9..1e9_f64, y in -1e3..1e3_f64, angle in -10.0..10.0_f64,
+        width in 1e-3..1e3_f64, slant in 0.01..1.0_f64, density in 1e-9..1e9_f64,
+    ) {
+        let corners = [[0.0, 0.0], [width, slant], [0.7 * width, slant + width], [0.0, 0.9 * width]];
+        let options = BodyOptions { density, ..BodyOptions::default() };
+        let frame = Pose { position: [x, y], angle };
+        let mut scene = Scene::new([0.0, -9.81], 0.5).unwrap();
+        scene.add_placed_polygon(&corners, frame, options.clone()).unwrap();
+        scene.add_polygon(&corners.map(|[a, b]| [x + a, y + b]), options).ok();
+        let again = io::from_json(&io::to_json(&scene), SOURCE).unwrap();
+        prop_assert_eq!(again, scene);
+    }
+}
+
+#[test]
+fn fields_left_out_take_their_defaults() {
+    let text = with_bodies(r#"{"box": {"size": [1, 2]}}, {"box": {"size": [1, 1]}, "name": null}"#);
+    let scene = io::from_json(&text, SOURCE).unwrap();
+    let body = &scene.bodies()[0];
+    assert_eq!((body.name.as_str(), body.density, body.friction), ("b0", 1.0, None));
+    assert_eq!(body.pose, Pose { position: [0.0, 0.0], angle: 0.0 });
+    assert!(!body.fixed);
+    assert_eq!(scene.bodies()[1].name, "b1");
+}
+
+#[test]
+fn a_polygon_given_off_its_centroid_stands_where_the_file_says() {
+    let text = with_bodies(
+        r#"{"polygon": {"vertices": [[0, 0], [2, 0], [2, 2], [0, 2]]},
+            "position": [10, 0], "angle": 1.5707963267948966}"#,
+    );
+    let scene = io::from_json(&text, SOURCE).unwrap();
+    let body = &scene.bodies()[0];
+    // The centroid (1, 1) turned by a quarter is (-1, 1).
+    assert!((body.pose.position[0] - 9.0).abs() < 1e-15 * 10.0);
+    assert!((body.pose.position[1] - 1.0).abs() < 1e-15);
+    assert_eq!(body.mass(), 4.0);
+}
+
+#[test]
+fn a_mistyped_field_is_named_with_its_body_and_the_right_one() {
+    let bodies = r#"{"box": {"size": [1, 1]}},
+        {"name": "lintel", "box": {"size": [1, 1]}, "fricton": 0.2}"#;
+    let error = error_of(&with_bodies(bodies));
+    assert!(matches!(&error, FileError::UnknownField { field, .. } if field == "fricton"));
+    let text = error.to_string();
+    assert!(
+        text.starts_with("wall.json: bodies[1] \"lintel\": unknown field \"fricton\": did you mean \"friction\"?"),
+        "{text}"
+    );
+    let error = error_of(&with_bodies(r#"{"box": {"sizes": [1, 1]}}"#)).to_string();
+    assert!(error.contains("bodies[0]: \"box\": unknown field \"sizes\""), "{error}");
+    let whole = with_bodies("").replace("\"gravity\"", "\"gravty\"");
+    assert!(error_of(&whole).to_string().contains("did you mean \"gravity\"?"));
+}
+
+#[test]
+fn missing_and_mistaken_values_are_named() {
+    let cases = [
+        (r#"{"name": "a"}"#, "bodies[0] \"a\": the field \"box\" or \"polygon\" is missing"),
+        (r#"{"box": {}}"#, "bodies[0]: \"box\": the field \"size\" is missing"),
+        (r#"{"box": {"size": [1]}}"#, "bodies[0]: \"box\": \"size\" is [1]: give two numbers"),
+        (r#"{"box": {"size": [1, 1]}, "fixed": 1}"#, "bodies[0]: \"fixed\" is 1: give true or false"),
+        (r#"{"box": {"size": [1, 1]}, "polygon": {"vertices": []}}"#, "\"polygon\" beside \"box\""),
+        ("3", "bodies[0] is 3: give an object"),
+        (
+            r#"{"name": "a", "box": {"size": [1, -1]}}"#,
+            "bodies[0] \"a\": block \"a\": size[1] is -1: it must be greater than zero",
+        ),
+        (
+            r#"{"polygon": {"vertices": [[0, 0], [0, 1], [1, 0]]}}"#,
+            "bodies[0]: block \"b0\": the vertices run clockwise",
+        ),
+    ];
+    for (body, expected) in cases {
+        let text = error_of(&with_bodies(body)).to_string();
+        assert!(text.starts_with("wall.json: ") && text.contains(expected), "{text}");
+    }
+    let twice = r#"{"name": "a", "box": {"size": [1, 1]}}"#;
+    let text = error_of(&with_bodies(&format!("{twice}, {twice}"))).to_string();
+    assert!(text.contains("bodies[1] \"a\": the name \"a\" is already that of block"), "{text}");
+}
+
+#[test]
+fn another_format_version_or_dimension_is_refused_first() {
+    let good = with_bodies("");
+    let newer = good.replace("\"version\": 1", "\"version\": 2").replace("\"friction\"", "\"mu\"");
+    assert!(matches!(error_of(&newer), FileError::UnsupportedVersion { supported: 1, .. }));
+    let space = good.replace("\"dimension\": 2", "\"dimension\": 3");
+    assert!(matches!(error_of(&space), FileError::UnsupportedDimension { .. }));
+    for text in ["[]", "{}", "3", r#"{"format": "something"}"#] {
+        assert!(matches!(error_of(text), FileError::WrongFormat { .. }), "{text}");
+    }
+}
+
+#[test]
+fn a_file_cut_anywhere_is_an_error() {
+    let text = io::to_json(&scenes::five_blocks(0.0).unwrap());
+    let document = text.trim_end();
+    for end in 0..document.len() {
+        let error = error_of(&document[..end]);
+        assert!(matches!(error, FileError::Truncated { .. }), "cut at {end}: {error}");
+    }
+}
+
+#[test]
+fn text_that_is_not_json_tells_the_place() {
+    let text = with_bodies("").replace("0.5", "NaN");
+    let error = error_of(&text);
+    assert!(matches!(error, FileError::Syntax { line: 2, .. }), "{error:?}");
+    assert!(error.to_string().contains("give finite numbers"), "{error}");
+    // JSON allows it, a double does not.
+    assert!(matches!(error_of(&text.replace("NaN", "1e999")), FileError::Syntax { .. }));
+}
+
+#[test]
+fn saving_replaces_a_file_and_leaves_nothing_else() {
+    let folder = folder("replace");
+    let path = folder.join("scene.json");
+    let scene = scenes::five_blocks(0.0).unwrap();
+    fs::write(&path, "old").unwrap();
+    io::save(&scene, &path).unwrap();
+    assert_eq!(io::load(&path).unwrap(), scene);
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_failed_save_leaves_nothing_half_written() {
+    let folder = folder("fail");
+    // The name is taken by a folder that is not empty, so the last step must fail.
+    let path = folder.join("scene.json");
+    fs::create_dir_all(path.join("inside")).unwrap();
+    let error = io::save(&scenes::five_blocks(0.0).unwrap(), &path).unwrap_err();
+    assert!(matches!(&error, SceneError::File(FileError::Write { .. })), "{error}");
+    assert!(path.join("inside").is_dir());
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+    let nowhere = folder.join("missing").join("scene.json");
+    assert!(io::save(&scenes::five_blocks(0.0).unwrap(), nowhere).is_err());
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_file_that_is_not_there_is_named() {
+    let error = io::load("no/such/file.json").unwrap_err().to_string();
+    assert!(error.starts_with("no/such/file.json: cannot be read"), "{error}");
+}
