@@ -86,6 +86,11 @@ enum Checked {
 const START_TOLERANCE: f64 = 1e-9;
 /// Zero-length steps in one major cycle, as a multiple of the active rows, after which ties go by least index.
 const STALL: usize = 2;
+/// Active `w` at or below this, in the problem's own scale, are rounding: correcting for them would only add noise
+/// along the nearly dependent rows of the active block.
+const ROUNDING: f64 = 1e-13;
+/// Times a solve may find new violations after recomputing `w` before the factor is built again.
+const ROUNDS: usize = 20;
 /// Residual of a direction on the active rows (unit diagonal, relative) above which it is refined once.
 const REFINE: f64 = 1e-13;
 
@@ -186,10 +191,7 @@ impl Solver {
 
     /// The solved state, to come back to with [`Self::restore`].
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            role: self.role.clone(),
-            active: self.active.members().iter().map(|&i| (i, self.z[i])).collect(),
-        }
+        Snapshot { role: self.role.clone(), active: self.active.members().iter().map(|&i| (i, self.z[i])).collect() }
     }
 
     /// Returns to a snapshot of this solver. The factor is moved by the rows in which the active sets differ.
@@ -229,28 +231,30 @@ impl Solver {
         self.ray = None;
         let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
         let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
+        let mut rounds = 0;
         let mut repairs = [Self::refactor, Self::restart].into_iter();
         loop {
-            let trouble = match self.drive_all(limit)? {
+            match self.drive_all(limit)? {
                 Cycle::Feasible => match self.recompute() {
                     Checked::Solved => return Ok(Status::Solved),
-                    Checked::StillViolated => continue,
-                    Checked::LostAccuracy => true,
+                    Checked::StillViolated if rounds < ROUNDS => {
+                        rounds += 1;
+                        continue;
+                    }
+                    Checked::StillViolated | Checked::LostAccuracy => rounds = 0,
                 },
                 Cycle::Ray => return Ok(Status::NoSolution),
                 Cycle::Limit => {
                     self.residual = self.present_residual();
                     return Ok(Status::PivotLimit);
                 }
-                Cycle::LostAccuracy => true,
-            };
-            match repairs.next() {
-                Some(repair) if trouble => repair(self),
-                _ => {
-                    self.residual = self.present_residual();
-                    return Ok(Status::NumericalTrouble);
-                }
+                Cycle::LostAccuracy => {}
             }
+            let Some(repair) = repairs.next() else {
+                self.residual = self.present_residual();
+                return Ok(Status::NumericalTrouble);
+            };
+            repair(self);
         }
     }
 
@@ -374,11 +378,7 @@ impl Solver {
         }
         for &j in self.active.members() {
             if self.dz[j] < -floor {
-                self.candidates.push(Candidate {
-                    blocker: Blocker::Leaves(j),
-                    value: self.z[j].max(0.0),
-                    rate: -self.dz[j],
-                });
+                self.candidates.push(Candidate { blocker: Blocker::Leaves(j), value: self.z[j], rate: -self.dz[j] });
             }
         }
         for j in 0..self.w.len() {
@@ -500,23 +500,15 @@ impl Solver {
         Ok(())
     }
 
-    /// Recomputes active `z` (one step of iterative refinement) and every `w`, and judges the result.
+    /// Recomputes every `w`, moves the active `z` so that the active `w` vanish, and judges the result.
     fn recompute(&mut self) -> Checked {
-        self.recompute_w();
-        let mut correction = vec![0.0; self.z.len()];
-        for &j in self.active.members() {
-            correction[j] = -self.w[j];
-        }
-        self.factor.solve(&mut correction);
-        let tolerance = self.settings.feasibility * self.own_scale();
-        for &j in self.active.members() {
-            let z = self.z[j] + correction[j];
-            if z.is_nan() || z < -tolerance {
-                return Checked::LostAccuracy;
-            }
-            self.z[j] = z.max(0.0);
+        for z in &mut self.z {
+            *z = z.max(0.0);
         }
         self.recompute_w();
+        if self.active_residual() > ROUNDING * self.own_scale() && !self.settle_active() {
+            return Checked::LostAccuracy;
+        }
         self.residual = self.present_residual();
         if self.most_violated().is_some_and(|i| !self.active.contains(i)) {
             Checked::StillViolated
@@ -524,6 +516,49 @@ impl Solver {
             Checked::Solved
         } else {
             Checked::LostAccuracy
+        }
+    }
+
+    /// Largest `|w|` on the active rows, where it should be zero.
+    fn active_residual(&self) -> f64 {
+        largest(&self.w, self.active.members())
+    }
+
+    /// Moves the active `z` towards `w_C = 0`. Where that would take a value below zero, the step ends there and the
+    /// row leaves, as in the inner loop of Lawson and Hanson's NNLS (1974): every step lowers
+    /// `z' M z / 2 + q' z`. False if the factor has lost its meaning.
+    fn settle_active(&mut self) -> bool {
+        loop {
+            let mut correction = vec![0.0; self.z.len()];
+            for &j in self.active.members() {
+                correction[j] = -self.w[j];
+            }
+            self.factor.solve(&mut correction);
+            if self.active.members().iter().any(|&j| correction[j].is_nan()) {
+                return false;
+            }
+            let leaving = self
+                .active
+                .members()
+                .iter()
+                .filter(|&&j| self.z[j] + correction[j] < 0.0)
+                .map(|&j| (self.z[j] / -correction[j], j))
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let step = leaving.map_or(1.0, |(step, _)| step);
+            for &j in self.active.members() {
+                self.z[j] = (self.z[j] + step * correction[j]).max(0.0);
+            }
+            if let Some((_, j)) = leaving {
+                self.counts.pivots += 1;
+                self.counts.minor_cycles += 1;
+                self.z[j] = 0.0;
+                self.factor.remove(j);
+                self.active.remove(j);
+            }
+            self.recompute_w();
+            if leaving.is_none() {
+                return true;
+            }
         }
     }
 
