@@ -70,30 +70,31 @@ class Solution:
     w: NDArray[np.float64]
     """(n,), M z + q."""
     status: str
-    """"solved" (the residual is at most 1e-9), "no_solution" (then `ray` shows it),
-    "pivot_limit", or "numerical_trouble"."""
+    """"solved" (the residual is at most 1e-9), "no_solution" (`ray` proves it), "ray_termination"
+    (Lemke's method ended on a ray that proves nothing), "pivot_limit" or "numerical_trouble"."""
     pivots: int
     """Major plus minor cycles."""
     major_cycles: int
     minor_cycles: int
     residual: float
-    """How far z and w are from feasible and complementary, in the problem's own scale."""
+    """The largest |min(z_i, w_i)| with M scaled to a unit diagonal, over the largest entry of the
+    scaled z and q."""
     ray: NDArray[np.float64] | None
-    """(n,), with "no_solution" only."""
+    """(n,). With "no_solution" a proof of it: ray >= 0, M' ray <= 0 and q' ray < 0."""
 
     def start(self, indices: Sequence[int] | NDArray[np.int64]) -> Start:
         """This solution as a start for a larger problem, whose `indices` this problem has."""
         return Start(np.asarray(indices), self.z)
 
     def recheck(self, M: Any, q: ArrayLike) -> float:
-        """The largest violation of z >= 0, M z + q >= 0 and z (M z + q) = 0, from M and q alone.
-
-        Absolute, in the units of z, w and their product, where `residual` is relative.
-        """
-        w = M @ self.z + np.asarray(q, dtype=np.float64)
-        if not len(w):
-            return 0.0
-        return float(max(np.max(-self.z), np.max(-w), np.max(np.abs(self.z * w)), 0.0))
+        """The `residual`, computed again from `M`, `q` and z alone."""
+        diagonal = np.asarray(M.diagonal(), dtype=np.float64)
+        unit = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
+        q = np.asarray(q, dtype=np.float64)
+        z, w = self.z / unit, unit * (M @ self.z + q)
+        worst = np.max(np.abs(np.minimum(z, w)), initial=0.0)
+        scale = max(np.max(np.abs(unit * q), initial=0.0), np.max(np.abs(z), initial=0.0))
+        return float(worst / scale) if worst > 0 else 0.0
 
 
 def solve(

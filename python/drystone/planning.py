@@ -14,6 +14,15 @@ from drystone.verdict import Verdict, shorten
 TESTS = ("reuse", "lcp", "lp", "lp-warm")
 """The stability tests `plan` knows: see there."""
 
+ENDINGS = {
+    "no_order": "No stable order exists",
+    "whole_falls": "No order: the complete assembly does not stand",
+    "test_limit": "No order yet: the limit of tests was reached",
+    "time_limit": "No order yet: the time was up",
+    "interrupted": "No order yet: interrupted",
+}
+"""What a plan's status says when there is no order."""
+
 Progress = Callable[[int, int, int], None]
 """Called with (tests done, blocks placed, blocks in all) a few times a second."""
 
@@ -37,7 +46,8 @@ class Plan:
 
     found: bool
     status: str
-    """"found", or why the search ended without an order."""
+    """"found", "no_order" (none exists), "whole_falls" (the complete assembly does not stand),
+    "test_limit", "time_limit" or "interrupted"."""
     order: tuple[str, ...]
     """Names of the blocks, first removed first; empty if no order was found."""
     reached: tuple[str, ...]
@@ -89,7 +99,7 @@ class Plan:
                 f"Order found for {len(self.order)} blocks; {work}.\n"
                 f"Remove first: {shorten(self.order)}."
             )
-        text = f"No order ({self.status.replace('_', ' ')}); {work}."
+        text = f"{ENDINGS.get(self.status, self.status)}; {work}."
         text += f"\nLargest sub-assembly reached: {len(self.reached)} blocks"
         if self.falls_next:
             text += f"; it falls if any of these is added: {shorten(self.falls_next)}"

@@ -1,7 +1,8 @@
 """Built-in scenes: the paper's, and structures whose limits are known in closed form.
 
-Lengths are in metres, angles in radians. The scenes of the paper's planner are frictionless by
-default. The blocks are named by numbers from "1", the fixed ones by what they are.
+All stand under gravity (0, -9.81) m/s^2, with density 1 kg/m^2. Movable blocks are named by numbers
+from "1", fixed ones by what they are ("ground", "table", "plane"). The paper's planning scenes are
+frictionless by default.
 """
 
 from __future__ import annotations
@@ -25,83 +26,102 @@ __all__ = [
 ]
 
 
-def column(blocks: int = 10, friction: float = 0.0) -> Scene:
-    """A column of unit squares, the lowest of them fixed.
+def column(n: int = 50, friction: float = 0.0) -> Scene:
+    """Unit squares on top of each other, the lowest of them fixed.
 
-    `blocks` counts the fixed one. From the paper's Table I (50 and 80 blocks).
+    `n` counts the fixed one. From the paper's Table I (50 and 80 blocks).
 
     >>> len(column(50))
     50
     """
-    return _built("column", blocks=blocks, friction=friction)
+    return _built("column", n=n, friction=friction)
 
 
-def pyramid(rows: int = 5, friction: float = 0.0) -> Scene:
-    """Unit squares in rows of `rows`, `rows` - 1, ... 1, each across two below, on fixed ground.
+def pyramid(rows: int = 13, friction: float = 0.0) -> Scene:
+    """Rows of unit squares in full face contact, each on two of the row below.
 
-    From the paper's Table I: 13 rows are 91 blocks. Every block meets its neighbours face to face,
-    so the contact forces are not unique.
+    From the paper's Table I: 13 rows are 91 blocks, on fixed ground. Neighbours in a row touch
+    side by side, and the contact forces are not unique.
+
+    >>> len(pyramid(13))
+    92
     """
     return _built("pyramid", rows=rows, friction=friction)
 
 
-def random_stack(blocks: int = 20, seed: int = 1, friction: float = 0.0) -> Scene:
-    """Blocks of mixed widths and heights, dropped one by one where they stand; like Fig. 7.
+def random_stack(blocks: int = 84, seed: int = 1, friction: float = 0.0) -> Scene:
+    """Blocks of mixed widths and heights with overhangs, like Fig. 7: the order matters.
 
-    There are overhangs, so the order of removal matters. The same `seed` gives the same stack.
+    The same `seed` always gives the same stack.
     """
     return _built("random_stack", blocks=blocks, seed=seed, friction=friction)
 
 
 def five_blocks(friction: float = 0.0) -> Scene:
-    """The five-block structure of the paper's Fig. 5."""
+    """Five blocks in which the order of removal matters, after Fig. 5.
+
+    Blocks 1 and 2 carry the plank 3, and that the load 4 and the counterweight 5: {1, 3, 5}
+    stands, {1, 3} and {1, 3, 4, 5} fall.
+    """
     return _built("five_blocks", friction=friction)
 
 
-def arch(voussoirs: int = 20, thickness: float = 0.2, friction: float = 0.5) -> Scene:
-    """A semicircular arch of equal wedges, mean radius 1, on two fixed springings.
+def arch(voussoirs: int = 20, thickness: float = 0.2, friction: float = 0.7) -> Scene:
+    """A semicircular arch of mean radius 1 m with radial joints, on fixed ground.
 
-    With enough friction it stands if `thickness` is at least 0.1075 (Milankovitch, Heyman).
+    Given enough friction it stands only if `thickness` (metres) is at least 0.1075
+    (Milankovitch, Heyman).
     """
     return _built("arch", voussoirs=voussoirs, thickness=thickness, friction=friction)
 
 
-def harmonic_stack(blocks: int = 5, stretch: float = 1.0, friction: float = 0.0) -> Scene:
-    """Unit-wide blocks leaning out over a table's edge by `stretch` times the harmonic overhang.
+def harmonic_stack(n: int = 10, overhang_factor: float = 1.0, friction: float = 0.0) -> Scene:
+    """Blocks of length 1 m reaching over a table's edge, at the limit for factor 1.
 
-    n blocks reach H_n / 2 = (1 + 1/2 + ... + 1/n) / 2 and no further: they stand up to a
-    `stretch` of 1 and fall beyond it.
+    `n` blocks reach H_n / 2 = (1 + 1/2 + ... + 1/n) / 2 metres over the edge and no further;
+    these reach `overhang_factor` times as far.
     """
-    return _built("harmonic_stack", blocks=blocks, stretch=stretch, friction=friction)
+    return _built("harmonic_stack", n=n, overhang_factor=overhang_factor, friction=friction)
 
 
-def diamond(size: int = 3, friction: float = 0.0) -> Scene:
-    """Rows of 1, 2, ... `size`, ... 2, 1 bricks on a fixed base (Paterson and Zwick, *Overhang*).
+def diamond(m: int = 4, friction: float = 0.0) -> Scene:
+    """Rows of 1, 2, ..., m, ..., 2, 1 blocks: stands without friction for m <= 4.
 
-    Without friction diamonds up to 4 stand and the one of 5 falls.
+    The m-diamonds of Paterson and Zwick, *Overhang*; the lowest block is wholly on the table.
     """
-    return _built("diamond", size=size, friction=friction)
+    return _built("diamond", m=m, friction=friction)
 
 
 def inverted_triangle(rows: int = 3, friction: float = 0.0) -> Scene:
-    """Rows of 1, 2, ... `rows` bricks, the single one below; falls from 3 rows on."""
+    """Rows of 1, 2, ... blocks from the bottom: falls without friction from 3 rows on."""
     return _built("inverted_triangle", rows=rows, friction=friction)
 
 
 def slope(
-    angle: float = 0.3, width: float = 1.0, height: float = 1.0, friction: float = 0.5
+    angle_degrees: float = 20.0,
+    friction: float = 0.5,
+    width: float = 1.0,
+    height: float = 1.0,
 ) -> Scene:
-    """A block on a plane inclined by `angle` radians.
+    """A block on an inclined plane, which rises to the right.
 
     It slides if tan(angle) > `friction`, and topples if tan(angle) > `width` / `height`.
     """
-    return _built("slope", angle=angle, width=width, height=height, friction=friction)
+    return _built(
+        "slope", angle_degrees=angle_degrees, friction=friction, width=width, height=height
+    )
 
 
-def wall(courses: int = 8, length: int = 10, friction: float = 0.5) -> Scene:
-    """A wall of bricks in running bond: `courses` rows of about `length` bricks each."""
-    return _built("wall", courses=courses, length=length, friction=friction)
+def wall(rows: int = 10, columns: int = 10, seed: int = 0, friction: float = 0.6) -> Scene:
+    """A brick wall in running bond.
+
+    `columns` is its length in bricks of 1 m by 0.5 m. A `seed` other than 0 draws the joints'
+    places at random.
+    """
+    return _built("wall", rows=rows, columns=columns, seed=seed, friction=friction)
 
 
 def _built(name: str, **parameters: Any) -> Scene:
-    return Scene._of(_core.Scene.built_in(name, parameters))
+    # NumPy's numbers become Python's own: the core takes what JSON knows.
+    plain = {key: getattr(value, "item", lambda v=value: v)() for key, value in parameters.items()}
+    return Scene._of(_core.Scene.built_in(name, plain))

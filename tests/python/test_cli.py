@@ -1,0 +1,235 @@
+"""The command line: what it prints, and its exit status."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import drystone as ds
+from conftest import Ran, orderless
+
+Cli = Callable[..., Ran]
+
+
+@pytest.fixture
+def file(block: ds.Scene, tmp_path: Path) -> Path:
+    block.save(tmp_path / "block.json")
+    return tmp_path / "block.json"
+
+
+@pytest.fixture
+def falling(leaning: ds.Scene, tmp_path: Path) -> Path:
+    leaning.save(tmp_path / "leaning.json")
+    return tmp_path / "leaning.json"
+
+
+def test_check_says_yes(cli: Cli, file: Path) -> None:
+    ran = cli("check", file)
+    assert ran.status == 0
+    assert ran.out.startswith("Stands: 1 blocks")
+    assert ran.out.count("9.81") == 2
+    assert ran.err == ""
+
+
+def test_check_says_no(cli: Cli, falling: Path) -> None:
+    ran = cli("check", falling)
+    assert ran.status == 1
+    assert ran.out.startswith("Falls: 1 of 1 blocks (plank)")
+
+
+def test_check_as_json(cli: Cli, file: Path, block: ds.Scene) -> None:
+    ran = cli("check", file, "--json")
+    answer = json.loads(ran.out)
+    expected = json.loads(json.dumps(ds.check(block).to_dict()))
+    for timed in (answer, expected):
+        assert timed.pop("seconds") >= 0
+    assert answer == expected
+    assert answer["stable"] is True
+
+
+def test_check_of_some_blocks(cli: Cli) -> None:
+    assert cli("check", "five_blocks", "--blocks", "1,3,5").status == 0
+    assert cli("check", "five_blocks", "--blocks", "1, 3").status == 1
+
+
+def test_plan_prints_the_order(cli: Cli) -> None:
+    ran = cli("plan", "column:4")
+    assert ran.status == 0
+    assert "3 2 1" in ran.out
+
+
+@pytest.mark.parametrize("test", ["reuse", "lcp", "lp", "lp-warm"])
+def test_plan_as_json(cli: Cli, test: str) -> None:
+    ran = cli("plan", "pyramid:3", "--json", "--test", test)
+    answer = json.loads(ran.out)
+    assert ran.status == 0
+    assert (answer["found"], answer["test"], len(answer["order"])) == (True, test, 6)
+    assert len(answer["records"]) == answer["tests"]
+
+
+def test_plan_without_an_order(cli: Cli, tmp_path: Path) -> None:
+    orderless(1).save(tmp_path / "scene.json")
+    ran = cli("plan", tmp_path / "scene.json")
+    assert ran.status == 1
+    assert "No stable order exists" in ran.out
+    assert "plank" in ran.out
+
+
+def test_plan_within_limits(cli: Cli, tmp_path: Path) -> None:
+    orderless(8).save(tmp_path / "scene.json")
+    ran = cli("plan", tmp_path / "scene.json", "--node-limit", "3", "--json")
+    assert (ran.status, json.loads(ran.out)["status"]) == (1, "test_limit")
+    ran = cli("plan", tmp_path / "scene.json", "--time-limit", "0", "--json")
+    assert (ran.status, json.loads(ran.out)["status"]) == (1, "time_limit")
+
+
+def test_pictures(cli: Cli, file: Path, tmp_path: Path) -> None:
+    assert cli("check", file, "-o", tmp_path / "check.svg").status == 0
+    assert (tmp_path / "check.svg").read_text().startswith("<?xml")
+    assert cli("plan", "column:5", "-o", tmp_path / "plan.png").status == 0
+    assert (tmp_path / "plan.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_scenes_are_written_with_their_parameters(cli: Cli, tmp_path: Path) -> None:
+    path = tmp_path / "arch.json"
+    assert cli("scene", "arch", "--voussoirs", "7", "--friction", "0.9", "-o", path).status == 0
+    assert path.read_text() == ds.scenes.arch(7, friction=0.9).to_json()
+
+
+def test_a_scene_goes_to_standard_output(cli: Cli) -> None:
+    ran = cli("scene", "column", "--n", "3")
+    assert ds.Scene.from_json(ran.out).to_json() == ds.scenes.column(3).to_json()
+
+
+def test_scenes_are_listed(cli: Cli) -> None:
+    ran = cli("scene", "--list")
+    assert ran.status == 0
+    assert [line.split()[0] for line in ran.out.splitlines()] == ds.scenes.__all__
+
+
+def test_built_in_scenes_may_stand_for_files(cli: Cli) -> None:
+    assert cli("plan", "random-stack:10,seed=4,friction=0.5").status == 0
+    assert json.loads(cli("check", "pyramid:2", "--json").out)["stable"]
+
+
+BAD = {
+    "no such file": (["check", "nowhere.json"], ["nowhere.json"]),
+    "a folder": (["check", "."], ["."]),
+    "no such scene": (["plan", "colum:3"], ["colum"]),
+    "no such parameter": (["plan", "column:m=3"], ["column", "m", "n"]),
+    "a parameter too many": (["plan", "column:3,0,7"], ["column", "7"]),
+    "a parameter that is no number": (["plan", "column:many"], ["column", "n", "many"]),
+    "a parameter out of range": (["plan", "column:-3"], ["column", "-3"]),
+    "no such block": (["check", "column:3", "--blocks", "9"], ["9"]),
+    "no such test": (["plan", "column:3", "--test", "simplex"], ["simplex"]),
+    "no such option": (["plan", "column:3", "--quickly"], ["--quickly"]),
+    "no such command": (["plane", "column:3"], ["plane"]),
+    "a limit that is no number": (["plan", "column:3", "--node-limit", "x"], ["x"]),
+    "nothing to check": (["check"], ["SCENE"]),
+    "a picture of another kind": (["check", "column:3", "-o", "x.gif"], [".svg", ".png"]),
+    "nowhere to write": (["check", "column:3", "-o", "no/such/x.svg"], ["no/such/x.svg"]),
+    "no such scene to write": (["scene", "colum"], ["colum"]),
+    "nowhere to write a scene": (["scene", "column", "-o", "no/such/x.json"], ["no/such/x.json"]),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_is_one_line_and_status_two(cli: Cli, case: str) -> None:
+    arguments, parts = BAD[case]
+    ran = cli(*arguments)
+    assert ran.status == 2
+    assert ran.out == ""
+    assert ran.err.startswith("drystone: ")
+    assert ran.err.count("\n") == 1
+    for part in parts:
+        assert part in ran.err
+
+
+def test_a_damaged_file_is_one_line(cli: Cli, file: Path) -> None:
+    file.write_text(file.read_text()[:80])
+    ran = cli("check", file)
+    assert (ran.status, ran.err.count("\n")) == (2, 1)
+    assert "block.json" in ran.err
+
+
+@pytest.mark.parametrize("command", [[], ["check"], ["plan"], ["scene"], ["scene", "arch"]])
+def test_help(cli: Cli, command: list[str]) -> None:
+    ran = cli(*command, "--help")
+    assert ran.status == 0
+    assert "Usage" in ran.out
+
+
+def test_version(cli: Cli) -> None:
+    assert cli("--version").out.strip() == ds.__version__
+
+
+def test_the_command_is_installed() -> None:
+    command = Path(sys.executable).with_name("drystone")
+    ran = subprocess.run([command, "check", "column:3"], capture_output=True, text=True)
+    assert (ran.returncode, ran.stderr) == (0, "")
+    ran = subprocess.run([command, "check", "nowhere"], capture_output=True, text=True)
+    assert (ran.returncode, ran.stdout) == (2, "")
+
+
+HEAVY = ("numpy", "scipy", "matplotlib", "highspy", "rich.progress")
+
+
+@pytest.mark.parametrize("what", ["import drystone", "help"])
+def test_nothing_heavy_is_loaded_before_it_is_needed(what: str) -> None:
+    code = what if what != "help" else "from drystone.cli import run; run(['--help'])"
+    code += "; import sys; print(*sys.modules, sep='\\n', file=sys.stderr)"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(ran.stderr.split())
+    assert loaded.isdisjoint(HEAVY)
+
+
+def _processor_seconds(arguments: list[str]) -> float:
+    """The least of three, in processor time: other programs on the machine do not count."""
+
+    def once() -> float:
+        before = os.times()
+        subprocess.run([sys.executable, *arguments], check=True, capture_output=True)
+        after = os.times()
+        return (
+            after.children_user
+            + after.children_system
+            - before.children_user
+            - before.children_system
+        )
+
+    return min(once() for _ in range(3))
+
+
+def test_help_answers_at_once() -> None:
+    idle = _processor_seconds(["-c", "pass"])
+    helping = _processor_seconds(["-c", "from drystone.cli import run; run(['plan', '--help'])"])
+    assert helping - idle < 0.5
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
+def test_an_interrupt_hands_back_the_best_so_far(tmp_path: Path) -> None:
+    orderless(20).save(tmp_path / "scene.json")
+    command = [sys.executable, "-c", "from drystone.cli import main; main()"]
+    process = subprocess.Popen(
+        [*command, "plan", str(tmp_path / "scene.json"), "--json"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    time.sleep(2.0)
+    assert process.poll() is None
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    answer: dict[str, Any] = json.loads(out)
+    assert (process.returncode, answer["status"], err) == (1, "interrupted", "")
+    assert answer["tests"] > 0
+    assert answer["reached"]
