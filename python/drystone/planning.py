@@ -9,7 +9,7 @@ from typing import Any
 
 from drystone import _core
 from drystone.scene import Scene
-from drystone.verdict import Verdict, shorten
+from drystone.verdict import Verdict, counted, shorten
 
 TESTS = ("reuse", "lcp", "lp", "lp-warm")
 """The stability tests `plan` knows: see there."""
@@ -91,16 +91,16 @@ class Plan:
 
     def __str__(self) -> str:
         work = (
-            f"{self.tests} tests, {self.pivots} pivots, "
+            f"{counted(self.tests, 'test')}, {counted(self.pivots, 'pivot')}, "
             f"{1e3 * self.test_seconds:.3g} ms in tests of {1e3 * self.seconds:.3g} ms"
         )
         if self.found:
             return (
-                f"Order found for {len(self.order)} blocks; {work}.\n"
+                f"Order found for {counted(len(self.order), 'block')}; {work}.\n"
                 f"Remove first: {shorten(self.order)}."
             )
         text = f"{ENDINGS.get(self.status, self.status)}; {work}."
-        text += f"\nLargest sub-assembly reached: {len(self.reached)} blocks"
+        text += f"\nLargest sub-assembly reached: {counted(len(self.reached), 'block')}"
         if self.falls_next:
             text += f"; it falls if any of these is added: {shorten(self.falls_next)}"
         return text + "."

@@ -101,13 +101,14 @@ class Verdict:
         return row
 
     def __str__(self) -> str:
-        work = f"{self.pivots} pivots, residual {self.residual:.1e}"
+        work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
         if self.status != "solved":
             return f"No answer ({self.status}): {work}."
         if self.stable:
-            return f"Stands: {len(self.names)} blocks, {len(self.forces)} contact points; {work}."
-        names = shorten(self.falling)
-        return f"Falls: {len(self.falling)} of {len(self.names)} blocks ({names}); {work}."
+            points = counted(len(self.forces), "contact point")
+            return f"Stands: {counted(len(self.names), 'block')}, {points}; {work}."
+        blocks = f"{len(self.falling)} of {counted(len(self.names), 'block')}"
+        return f"Falls: {blocks} ({shorten(self.falling)}); {work}."
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene, in types that JSON knows."""
@@ -165,6 +166,11 @@ def check(scene: Scene, blocks: Iterable[str] | None = None) -> Verdict:
         raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
     names = None if blocks is None else list(blocks)
     return Verdict._of(_core.check(scene._core, names), scene)
+
+
+def counted(number: int, thing: str) -> str:
+    """1 block, 2 blocks."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
 
 
 def shorten(names: Iterable[str], limit: int = 8) -> str:

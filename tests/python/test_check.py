@@ -150,8 +150,8 @@ def test_forces_balance_every_block() -> None:
 
 
 def test_the_verdict_can_be_read(block: ds.Scene, leaning: ds.Scene) -> None:
-    assert str(ds.check(block)).startswith("Stands: 1 blocks, 2 contact points; ")
-    assert str(ds.check(leaning)).startswith("Falls: 1 of 1 blocks (plank); ")
+    assert str(ds.check(block)).startswith("Stands: 1 block, 2 contact points; ")
+    assert str(ds.check(leaning)).startswith("Falls: 1 of 1 block (plank); ")
 
 
 def test_the_accelerations_of_an_unknown_body_are_an_error(block: ds.Scene) -> None:

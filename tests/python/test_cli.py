@@ -35,7 +35,7 @@ def falling(leaning: ds.Scene, tmp_path: Path) -> Path:
 def test_check_says_yes(cli: Cli, file: Path) -> None:
     ran = cli("check", file)
     assert ran.status == 0
-    assert ran.out.startswith("Stands: 1 blocks")
+    assert ran.out.startswith("Stands: 1 block")
     assert ran.out.count("9.81") == 2
     assert ran.err == ""
 
@@ -43,7 +43,7 @@ def test_check_says_yes(cli: Cli, file: Path) -> None:
 def test_check_says_no(cli: Cli, falling: Path) -> None:
     ran = cli("check", falling)
     assert ran.status == 1
-    assert ran.out.startswith("Falls: 1 of 1 blocks (plank)")
+    assert ran.out.startswith("Falls: 1 of 1 block (plank)")
 
 
 def test_check_as_json(cli: Cli, file: Path, block: ds.Scene) -> None:

@@ -25,7 +25,7 @@ LONGEST_SIDE = 8.0
 """Inches of the drawing's longer side."""
 LEAST_WIDTH = 3.4
 """Inches, so that a title fits above a slender column."""
-FIXED_REACH = 0.2
+FIXED_REACH = 0.12
 """How far beyond the movable bodies a fixed one may widen the view, in the view's own size."""
 SETTINGS: dict[Any, Any] = {
     "svg.hashsalt": "drystone",
@@ -52,8 +52,18 @@ class Canvas:
         return float(np.hypot(right - left, top - bottom))
 
 
-def fitted(bodies: Sequence[Body], title: str, note: str = "", colour_bar: bool = False) -> Canvas:
-    """An empty canvas for these bodies, with a title above and a note below."""
+def fitted(
+    bodies: Sequence[Body],
+    title: str,
+    note: str = "",
+    *,
+    key: bool = False,
+    colour_bar: bool = False,
+) -> Canvas:
+    """An empty canvas for these bodies, with a title above and a note below.
+
+    `key` leaves room for a row of arrows under the drawing, `colour_bar` for one on its right.
+    """
     box = _view(bodies)
     width, height = box[2] - box[0], box[3] - box[1]
     scale = LONGEST_SIDE / max(width, height)
@@ -63,7 +73,7 @@ def fitted(bodies: Sequence[Body], title: str, note: str = "", colour_bar: bool 
     title_lines = _wrapped(title, total_width, 11)
     note_lines = _wrapped(note, total_width, 8)
     top = 0.18 + 0.2 * len(title_lines)
-    bottom = 0.5 + 0.16 * len(note_lines)
+    bottom = (0.4 if key else 0.15) + 0.16 * len(note_lines)
     total_height = drawn_height + top + bottom
     figure = Figure(figsize=(total_width, total_height), facecolor="white")
     left = (total_width - side + 0.15 - drawn_width) / 2

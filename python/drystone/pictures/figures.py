@@ -22,7 +22,7 @@ from drystone.pictures.shapes import (
     typical_size,
 )
 from drystone.scene import Body, Scene
-from drystone.verdict import Verdict
+from drystone.verdict import Verdict, counted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -37,7 +37,10 @@ def scene_figure(scene: Scene) -> Figure:
     """The bodies with their names."""
     bodies = scene.bodies
     movable = [body for body in bodies if not body.fixed]
-    canvas = fitted(bodies, f"{len(movable)} blocks, {len(scene.contacts)} contact points")
+    canvas = fitted(
+        bodies,
+        f"{counted(len(movable), 'block')}, {counted(len(scene.contacts), 'contact point')}",
+    )
     fills = {body.name: style.STONE for body in movable}
     draw_fixed(canvas, bodies)
     draw_blocks(canvas, bodies, fills)
@@ -51,7 +54,7 @@ def verdict_figure(verdict: Verdict) -> Figure:
     present = set(verdict.names)
     falling = set(verdict.falling)
     headline, _, details = str(verdict).partition("; ")
-    canvas = fitted(bodies, headline, f"{details}\n")
+    canvas = fitted(bodies, headline, details, key=True)
     draw_fixed(canvas, bodies)
     draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in present])
     fills = {name: style.FALLING if name in falling else style.STONE for name in verdict.names}
@@ -143,4 +146,4 @@ def _draw_order_bar(canvas: Canvas, count: int) -> None:
     drawn.ax.set_yticklabels([str(tick) for tick in ticks], size=8, color=style.INK)
     drawn.ax.tick_params(length=2, color=style.FAINT)
     drawn.outline.set_visible(False)
-    bar.set_title("removed", size=8, color=style.INK, loc="left", pad=4)
+    bar.set_title("removed", size=8, color=style.INK, loc="left", pad=8)
