@@ -135,16 +135,25 @@ class WarmProgram:
 
     def __call__(self, bodies: list[int], added: int) -> tuple[bool, int]:
         """Whether the sub-assembly of these `bodies` stands, and the simplex iterations taken."""
-        wanted = np.zeros(len(self._present), dtype=bool)
-        wanted[bodies] = True
-        wanted[added] = False  # it is placed last, so that the basis without it is kept
-        self._back_up_to(wanted)
-        for body in np.flatnonzero(wanted & ~self._present):
-            self._add(int(body))
+        if not self._grows_by(added, bodies):
+            wanted = np.zeros(len(self._present), dtype=bool)
+            wanted[bodies] = True
+            wanted[added] = False  # it is placed last, so that the basis without it is kept
+            self._back_up_to(wanted)
+            for body in np.flatnonzero(wanted & ~self._present):
+                self._add(int(body))
         self._add(added)
         stands, pivots = _decide(self._highs)
         self._placed[-1].basis = self._highs.getBasis() if stands else None
         return stands, pivots
+
+    def _grows_by(self, added: int, bodies: list[int]) -> bool:
+        """Whether `bodies` are what is placed and `added`."""
+        return (
+            len(bodies) == len(self._placed) + 1
+            and not self._present[added]
+            and int(np.count_nonzero(self._present[bodies])) == len(self._placed)
+        )
 
     def _add(self, body: int) -> None:
         program = self._program
