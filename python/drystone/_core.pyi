@@ -163,6 +163,9 @@ class LcpSolution:
     ray: NDArray[np.float64] | None
     refactorisations: int
 
+def catalogue() -> list[tuple[str, str, list[tuple[str, str, bool, float]]]]:
+    """Built-in scenes: (name, summary, [(parameter, summary, whole number or not, default)])."""
+
 def generators(scene: Scene) -> Generators: ...
 def check(scene: Scene, blocks: Sequence[str] | None = None) -> Verdict: ...
 def plan(

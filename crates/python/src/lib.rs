@@ -1,1 +1,32 @@
-//! Placeholder.
+//! The Python extension module `drystone._core`: conversions only. The public names live in `python/drystone`.
+
+mod arrays;
+mod errors;
+mod lcp;
+mod plan;
+mod scene;
+mod verdict;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    errors::add_to(module)?;
+    module.add_class::<scene::Scene>()?;
+    module.add_class::<scene::Body>()?;
+    module.add_class::<scene::Contact>()?;
+    module.add_class::<verdict::ContactForce>()?;
+    module.add_class::<verdict::Verdict>()?;
+    module.add_class::<plan::TestRecord>()?;
+    module.add_class::<plan::Plan>()?;
+    module.add_class::<plan::Generators>()?;
+    module.add_class::<lcp::LcpSolution>()?;
+    module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
+    module.add_function(wrap_pyfunction!(verdict::check, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::generators, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::plan, module)?)?;
+    module.add_function(wrap_pyfunction!(plan::disassembly_graph, module)?)?;
+    module.add_function(wrap_pyfunction!(lcp::lcp_solve, module)?)?;
+    Ok(())
+}

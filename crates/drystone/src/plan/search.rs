@@ -109,6 +109,8 @@ pub struct Plan {
     pub total: Duration,
     /// Verdict on the complete assembly, reported apart from the tests.
     pub whole: Verdict,
+    /// Time of that check.
+    pub whole_time: Duration,
 }
 
 impl Plan {
@@ -154,6 +156,7 @@ pub fn plan_with(
 ) -> Result<Plan, PlanError> {
     let start = Instant::now();
     let whole = check_blocks(assembly, &BlockSet::full(assembly.blocks()));
+    let whole_time = start.elapsed();
     let mut search = Search::new(assembly, limits, start);
     let outcome = if whole.stable { search.run(test, monitor)? } else { Outcome::WholeFalls };
     let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };
@@ -167,6 +170,7 @@ pub fn plan_with(
         setup: Duration::ZERO,
         total: start.elapsed(),
         whole,
+        whole_time,
     })
 }
 

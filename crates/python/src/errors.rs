@@ -1,0 +1,75 @@
+//! Typed errors in Python: one map from each Rust error to its exception.
+
+use drystone::{SceneError, plan::PlanError};
+use drystone_lcp::LcpError;
+use pyo3::{
+    exceptions::{PyException, PyValueError},
+    prelude::*,
+    sync::PyOnceLock,
+    types::{IntoPyDict, PyTuple, PyType},
+};
+
+struct Exceptions {
+    base: Py<PyType>,
+    scene: Py<PyType>,
+    lcp: Py<PyType>,
+    start: Py<PyType>,
+}
+
+static EXCEPTIONS: PyOnceLock<Exceptions> = PyOnceLock::new();
+
+fn exceptions(py: Python<'_>) -> PyResult<&'static Exceptions> {
+    EXCEPTIONS.get_or_try_init(py, || {
+        // `type(name, bases, {...})`: two bases, so that bad input is also a ValueError.
+        let make = |name: &str, doc: &str, bases: &[&Bound<'_, PyType>]| -> PyResult<Py<PyType>> {
+            let namespace = [("__module__", "drystone"), ("__doc__", doc)].into_py_dict(py)?;
+            let class = py.get_type::<PyType>().call1((name, PyTuple::new(py, bases)?, namespace))?;
+            Ok(class.cast_into::<PyType>()?.unbind())
+        };
+        let value_error = py.get_type::<PyValueError>();
+        let base = make("DrystoneError", "Base of drystone's errors.", &[&py.get_type::<PyException>()])?;
+        let both = [base.bind(py), &value_error];
+        let scene = make("SceneError", "A scene that is not valid; says what to mend.", &both)?;
+        let lcp = make("LcpError", "A complementarity problem that is not valid.", &both)?;
+        let start = make("StartError", "A start that does not fit the problem.", &[lcp.bind(py)])?;
+        Ok(Exceptions { base, scene, lcp, start })
+    })
+}
+
+pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    let known = exceptions(py)?;
+    module.add("DrystoneError", known.base.bind(py))?;
+    module.add("SceneError", known.scene.bind(py))?;
+    module.add("LcpError", known.lcp.bind(py))?;
+    module.add("StartError", known.start.bind(py))
+}
+
+fn raise(pick: impl Fn(&Exceptions) -> &Py<PyType>, message: String) -> PyErr {
+    Python::attach(|py| match exceptions(py) {
+        Ok(known) => PyErr::from_type(pick(known).bind(py).clone(), (message,)),
+        Err(error) => error,
+    })
+}
+
+pub fn scene_error(error: &SceneError) -> PyErr {
+    raise(|known| &known.scene, error.to_string())
+}
+
+pub fn lcp_error(error: &LcpError) -> PyErr {
+    match error {
+        LcpError::Start(start) => raise(|known| &known.start, start.to_string()),
+        other => raise(|known| &known.lcp, other.to_string()),
+    }
+}
+
+pub fn plan_error(error: PlanError) -> PyErr {
+    match error {
+        PlanError::Scene(error) => scene_error(&error),
+        PlanError::External(error) => match error.downcast::<PyErr>() {
+            Ok(error) => *error,
+            Err(error) => raise(|known| &known.base, error.to_string()),
+        },
+        other => raise(|known| &known.base, other.to_string()),
+    }
+}

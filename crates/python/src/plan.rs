@@ -1,0 +1,190 @@
+//! `plan`, with the stability tests of the core or one from Python.
+
+use crate::{
+    arrays::vector,
+    errors::{plan_error, scene_error},
+    scene::Scene,
+    verdict::Verdict,
+};
+use drystone::{
+    formulate::{Assembly, BlockSet},
+    plan::{self as core, Limits, Monitor, PlanError, Progress, StabilityTest, Test, TestOutcome},
+};
+use numpy::PyArray1;
+use pyo3::{exceptions::PyValueError, prelude::*};
+use std::time::{Duration, Instant};
+
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct TestRecord {
+    size: usize,
+    pivots: usize,
+    seconds: f64,
+    stable: bool,
+}
+
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct Plan {
+    status: String,
+    found: bool,
+    order: Vec<String>,
+    reached: Vec<String>,
+    falls_next: Vec<String>,
+    tests: usize,
+    pivots: usize,
+    test_seconds: f64,
+    seconds: f64,
+    records: Vec<Py<TestRecord>>,
+    whole: Option<Py<Verdict>>,
+}
+
+/// Equilibrium of the complete assembly: G f = -F with f >= 0; see the stub for the layout.
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct Generators {
+    names: Vec<String>,
+    indptr: Py<PyArray1<i64>>,
+    indices: Py<PyArray1<i64>>,
+    data: Py<PyArray1<f64>>,
+    applied: Py<PyArray1<f64>>,
+    inverse_mass: Py<PyArray1<f64>>,
+    bodies: Py<numpy::PyArray2<i64>>,
+    contact: Py<PyArray1<i64>>,
+}
+
+#[pyfunction]
+pub fn generators(py: Python<'_>, scene: &Scene) -> PyResult<Generators> {
+    let assembly = Assembly::new(&scene.core).map_err(|error| scene_error(&error))?;
+    let (mut indptr, mut indices, mut data) = (vec![0_i64], Vec::new(), Vec::new());
+    let mut bodies = Vec::new();
+    for generator in assembly.generators() {
+        for wrench in &generator.wrenches {
+            indices.extend((0..3).map(|k| (3 * wrench.block + k) as i64));
+            data.extend(wrench.value);
+        }
+        indptr.push(indices.len() as i64);
+        let block = |k: usize| generator.wrenches.get(k).map_or(-1, |wrench| wrench.block as i64);
+        bodies.extend([block(0), block(1)]);
+    }
+    let blocks = 0..assembly.blocks();
+    let bodies = numpy::PyArrayMethods::reshape(&vector(py, bodies), [assembly.generators().len(), 2])?;
+    Ok(Generators {
+        names: blocks.clone().map(|block| assembly.body(block).name.clone()).collect(),
+        indptr: vector(py, indptr).unbind(),
+        indices: vector(py, indices).unbind(),
+        data: vector(py, data).unbind(),
+        applied: vector(py, blocks.clone().flat_map(|block| assembly.applied(block)).collect()).unbind(),
+        inverse_mass: vector(py, blocks.flat_map(|block| assembly.inverse_mass(block)).collect()).unbind(),
+        bodies: bodies.unbind(),
+        contact: vector(py, assembly.generators().iter().map(|g| g.contact as i64).collect()).unbind(),
+    })
+}
+
+/// A stability test written in Python: called with (indices of the blocks, index of the one added last).
+struct Callback {
+    function: Py<PyAny>,
+}
+
+impl StabilityTest for Callback {
+    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
+        Python::attach(|py| {
+            let answer = self.function.call1(py, (blocks.iter().collect::<Vec<_>>(), added))?;
+            answer.extract::<(bool, usize)>(py)
+        })
+        .map(|(stands, pivots)| TestOutcome { stands, pivots })
+        .map_err(|error| PlanError::External(Box::new(error)))
+    }
+}
+
+/// Looks for Ctrl-C and reports progress, a few times a second.
+struct Watch {
+    progress: Option<Py<PyAny>>,
+    last: Instant,
+    error: Option<PyErr>,
+}
+
+const PERIOD: Duration = Duration::from_millis(100);
+
+impl Monitor for Watch {
+    fn go_on(&mut self, progress: Progress) -> bool {
+        if self.last.elapsed() < PERIOD {
+            return true;
+        }
+        self.last = Instant::now();
+        Python::attach(|py| {
+            if py.check_signals().is_err() {
+                return false; // Ctrl-C: the best so far is the answer
+            }
+            let Some(function) = &self.progress else { return true };
+            let Progress { tests, placed, blocks } = progress;
+            self.error = function.call1(py, (tests, placed, blocks)).err();
+            self.error.is_none()
+        })
+    }
+}
+
+#[pyfunction]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None))]
+pub fn plan(
+    py: Python<'_>,
+    scene: &Scene,
+    test: &Bound<'_, PyAny>,
+    node_limit: Option<usize>,
+    time_limit: Option<f64>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Plan> {
+    let time = time_limit.map(Duration::try_from_secs_f64).transpose();
+    let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
+    let limits = Limits { tests: node_limit, time };
+    let mut watch = Watch { progress, last: Instant::now(), error: None };
+    let scene = &scene.core;
+    let planned = if test.is_callable() {
+        let mut test = Callback { function: test.clone().unbind() };
+        py.detach(|| {
+            let assembly = Assembly::new(scene)?;
+            core::plan_with(&assembly, &mut test, limits, &mut watch)
+        })
+    } else {
+        let test = named_test(&test.extract::<String>()?)?;
+        py.detach(|| core::plan(scene, test, limits, &mut watch))
+    };
+    match watch.error {
+        Some(error) => Err(error),
+        None => to_python(py, scene, &planned.map_err(plan_error)?),
+    }
+}
+
+fn named_test(name: &str) -> PyResult<Test> {
+    match name {
+        "lcp" => Ok(Test::Lcp),
+        "reuse" => Ok(Test::Reuse),
+        other => Err(PyValueError::new_err(format!("unknown stability test \"{other}\": give \"reuse\" or \"lcp\""))),
+    }
+}
+
+fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyResult<Plan> {
+    let names = |bodies: &[usize]| bodies.iter().map(|&index| scene.bodies()[index].name.clone()).collect();
+    let record = |record: &core::TestRecord| {
+        let (TestOutcome { stands, pivots }, seconds) = (record.outcome, record.time.as_secs_f64());
+        Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
+    };
+    Ok(Plan {
+        status: plan.outcome.name().to_owned(),
+        found: plan.outcome == core::Outcome::Found,
+        order: names(&plan.order),
+        reached: names(&plan.reached),
+        falls_next: names(&plan.falls_next),
+        tests: plan.records.len(),
+        pivots: plan.pivots(),
+        test_seconds: plan.test_time().as_secs_f64(),
+        seconds: plan.total.as_secs_f64(),
+        records: plan.records.iter().map(record).collect::<PyResult<_>>()?,
+        whole: Some(Py::new(py, Verdict::new(py, scene, &plan.whole, plan.whole_time)?)?),
+    })
+}
+
+/// Every sub-assembly of a small scene with the verdict on it.
+#[pyfunction]
+pub fn disassembly_graph(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(Vec<String>, bool)>> {
+    let nodes = py.detach(|| core::disassembly_graph(&scene.core)).map_err(plan_error)?;
+    let name = |&index: &usize| scene.core.bodies()[index].name.clone();
+    Ok(nodes.iter().map(|node| (node.bodies.iter().map(name).collect(), node.stands)).collect())
+}

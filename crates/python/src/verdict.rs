@@ -1,0 +1,75 @@
+//! `check` and its answer.
+
+use crate::{arrays::matrix, errors::scene_error, scene::Scene};
+use drystone::{Scene as CoreScene, check as core_check};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use std::time::{Duration, Instant};
+
+/// The force that body `a` exerts on body `b` at one contact point, in newtons.
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct ContactForce {
+    a: String,
+    b: String,
+    feature: String,
+    point: (f64, f64),
+    normal: (f64, f64),
+    normal_force: f64,
+    tangential_force: f64,
+    force: (f64, f64),
+}
+
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct Verdict {
+    status: String,
+    stable: bool,
+    forces: Vec<Py<ContactForce>>,
+    names: Vec<String>,
+    accelerations: Py<PyArray2<f64>>,
+    falling: Vec<String>,
+    pivots: usize,
+    major_cycles: usize,
+    minor_cycles: usize,
+    residual: f64,
+    seconds: f64,
+}
+
+impl Verdict {
+    pub fn new(py: Python<'_>, scene: &CoreScene, verdict: &drystone::Verdict, time: Duration) -> PyResult<Self> {
+        let name = |&index: &usize| scene.bodies()[index].name.clone();
+        let force = |(contact, force): &(drystone::Contact, drystone::formulate::ContactForce)| {
+            let force = ContactForce {
+                a: name(&contact.bodies[0]),
+                b: name(&contact.bodies[1]),
+                feature: contact.id.feature.to_string(),
+                point: contact.point.into(),
+                normal: contact.normal.into(),
+                normal_force: force.normal,
+                tangential_force: force.tangential,
+                force: force.force.into(),
+            };
+            Py::new(py, force)
+        };
+        Ok(Self {
+            status: verdict.status.name().to_owned(),
+            stable: verdict.stable,
+            forces: verdict.forces.iter().map(force).collect::<PyResult<_>>()?,
+            names: verdict.checked.iter().map(name).collect(),
+            accelerations: matrix(py, &verdict.accelerations)?.unbind(),
+            falling: verdict.falling.iter().map(name).collect(),
+            pivots: verdict.counts.pivots,
+            major_cycles: verdict.counts.major_cycles,
+            minor_cycles: verdict.counts.minor_cycles,
+            residual: verdict.residual,
+            seconds: time.as_secs_f64(),
+        })
+    }
+}
+
+#[pyfunction]
+#[pyo3(signature = (scene, blocks=None))]
+pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>) -> PyResult<Verdict> {
+    let start = Instant::now();
+    let verdict = py.detach(|| core_check(&scene.core, blocks.as_deref())).map_err(|error| scene_error(&error))?;
+    Verdict::new(py, &scene.core, &verdict, start.elapsed())
+}
