@@ -3,6 +3,7 @@
 use drystone::geometry::Pose;
 use drystone::{BodyOptions, FileError, Scene, SceneError, io, scenes};
 use proptest::prelude::*;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -81,7 +82,7 @@ proptest! {
 
 #[test]
 fn fields_left_out_take_their_defaults() {
-    let text = with_bodies(r#"{"box": {"size": [1, 2]}}, {"box": {"size": [1, 1]}, "name": null}"#);
+    let text = with_bodies(r#"{"box": {"size": [1, 2]}}, {"box": {"size": [1, 1]}}"#);
     let scene = io::from_json(&text, SOURCE).unwrap();
     let body = &scene.bodies()[0];
     assert_eq!((body.name.as_str(), body.density, body.friction), ("b0", 1.0, None));
@@ -129,6 +130,7 @@ fn missing_and_mistaken_values_are_named() {
         (r#"{"box": {"size": [1]}}"#, "bodies[0]: \"box\": \"size\" is [1]: give two numbers"),
         (r#"{"box": {"size": [1, 1]}, "fixed": 1}"#, "bodies[0]: \"fixed\" is 1: give true or false"),
         (r#"{"box": {"size": [1, 1]}, "polygon": {"vertices": []}}"#, "\"polygon\" beside \"box\""),
+        (r#"{"box": {"size": [1, 1]}, "friction": null}"#, "\"friction\" is null: give a number"),
         ("3", "bodies[0] is 3: give an object"),
         (
             r#"{"name": "a", "box": {"size": [1, -1]}}"#,
@@ -211,4 +213,48 @@ fn a_failed_save_leaves_nothing_half_written() {
 fn a_file_that_is_not_there_is_named() {
     let error = io::load("no/such/file.json").unwrap_err().to_string();
     assert!(error.starts_with("no/such/file.json: cannot be read"), "{error}");
+}
+
+/// The names under "properties", sorted as the map has them.
+fn properties(schema: &Value) -> Vec<String> {
+    schema["properties"].as_object().unwrap().keys().cloned().collect()
+}
+
+/// The fields that the reader allows in a place, as its error for an unknown one lists them.
+fn allowed(text: &str) -> Vec<String> {
+    let FileError::UnknownField { allowed, .. } = error_of(text) else { panic!("{text}") };
+    let mut names: Vec<String> = allowed.split(", ").map(str::to_owned).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_schema_knows_the_fields_that_are_read_and_written() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene.schema.json");
+    let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+    let body = &schema["$defs"]["body"];
+    let top = with_bodies("").replacen('{', r#"{"other": 0,"#, 1);
+    assert_eq!(allowed(&top), properties(&schema));
+    assert_eq!(allowed(&with_bodies(r#"{"other": 0}"#)), properties(body));
+    for shape in ["box", "polygon"] {
+        let text = with_bodies(&format!(r#"{{"{shape}": {{"other": 0}}}}"#));
+        assert_eq!(allowed(&text), properties(&body["properties"][shape]));
+    }
+    let required = |document: &Value| {
+        let names = schema["required"].as_array().unwrap();
+        names.iter().all(|name| document.get(name.as_str().unwrap()).is_some())
+    };
+    for entry in scenes::catalogue() {
+        let scene = scenes::build(entry.name, &BTreeMap::new()).unwrap();
+        let document: Value = serde_json::from_str(&io::to_json(&scene)).unwrap();
+        assert!(required(&document));
+        for name in document.as_object().unwrap().keys() {
+            assert!(properties(&schema).contains(name), "{name}");
+        }
+        for one in document["bodies"].as_array().unwrap() {
+            for name in one.as_object().unwrap().keys() {
+                assert!(properties(body).contains(name), "{name}");
+            }
+        }
+    }
 }

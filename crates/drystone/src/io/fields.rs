@@ -29,9 +29,9 @@ impl<'a> Fields<'a> {
         Ok(Self { file, place, map })
     }
 
-    /// The value of a field; null counts as left out.
+    /// The value of a field, if it is there.
     pub fn get(&self, field: &str) -> Option<&'a Value> {
-        self.map.get(field).filter(|value| !value.is_null())
+        self.map.get(field)
     }
 
     pub fn required(&self, field: &str) -> Result<&'a Value, FileError> {
