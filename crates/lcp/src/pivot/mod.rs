@@ -1,8 +1,10 @@
 //! The methods, one file each, behind one trait.
 
 mod dantzig;
+mod lemke;
 
 pub use dantzig::Dantzig;
+pub use lemke::Lemke;
 
 use crate::{error::LcpError, problem::Problem, reuse::Start, settings::Settings, solution::Solution};
 
