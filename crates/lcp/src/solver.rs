@@ -89,6 +89,8 @@ const STALL: usize = 2;
 /// Active `w` at or below this, in the problem's own scale, are rounding: correcting for them would only add noise
 /// along the nearly dependent rows of the active block.
 const ROUNDING: f64 = 1e-13;
+/// Rounding of a curvature relative to the square of the direction's size: some fifty units in the last place.
+const CURVATURE_ROUNDING: f64 = 1e-14;
 /// Times a solve may find new violations after recomputing `w` before the factor is built again.
 const ROUNDS: usize = 20;
 /// Residual of a direction on the active rows (unit diagonal, relative) above which it is refined once.
@@ -302,14 +304,14 @@ impl Solver {
             }
             self.direction(i);
             let size = largest(&self.dz, self.active.members()).max(1.0);
-            let slope = self.dw[i];
+            let slope = self.curvature(i);
             if slope.is_nan() {
                 return Ok(Cycle::LostAccuracy);
             }
             if slope < -self.settings.residual * size * size {
                 return Err(LcpError::NotSemidefinite { index: i, curvature: slope });
             }
-            self.collect_candidates(i, size);
+            self.collect_candidates(i, slope, size);
             let rule = if stalled > STALL * (self.active.members().len() + 4) {
                 TieRule::LeastIndex
             } else {
@@ -357,6 +359,18 @@ impl Solver {
         }
     }
 
+    /// `dz' M dz`, which equals `dw_i` but for the error of the active `dw`: that enters `dw_i` multiplied by the direction's
+    /// size and here by nothing.
+    fn curvature(&self, i: usize) -> f64 {
+        self.dw[i] + self.active.members().iter().map(|&j| self.dz[j] * self.dw[j]).sum::<f64>()
+    }
+
+    /// Curvature at or below which row i depends on the active rows. Rounding in `M` alone, one unit in the last place of
+    /// a unit diagonal, changes `dz' M dz` by the square of the direction's size.
+    fn least_slope(&self, size: f64) -> f64 {
+        (self.settings.singular * size).max(CURVATURE_ROUNDING * size * size)
+    }
+
     fn multiply_direction(&mut self, i: usize) {
         self.dw.fill(0.0);
         self.m.add_column(i, 1.0, &mut self.dw);
@@ -366,15 +380,11 @@ impl Solver {
     }
 
     /// Everything that falls towards zero: `w_i` of the driving row, active `z`, and `w` of considered rows.
-    fn collect_candidates(&mut self, i: usize, size: f64) {
+    fn collect_candidates(&mut self, i: usize, slope: f64, size: f64) {
         let floor = self.settings.pivot * size;
         self.candidates.clear();
-        if self.dw[i] > self.settings.singular * size {
-            self.candidates.push(Candidate {
-                blocker: Blocker::Driving,
-                value: (-self.w[i]).max(0.0),
-                rate: self.dw[i],
-            });
+        if slope > self.least_slope(size) {
+            self.candidates.push(Candidate { blocker: Blocker::Driving, value: (-self.w[i]).max(0.0), rate: slope });
         }
         for &j in self.active.members() {
             if self.dz[j] < -floor {
@@ -457,7 +467,7 @@ impl Solver {
         loop {
             self.direction(i);
             let size = largest(&self.dz, self.active.members()).max(1.0);
-            if self.dw[i] > self.settings.singular * size {
+            if self.curvature(i) > self.least_slope(size) {
                 if self.factor.insert(&self.m, i).is_ok() {
                     self.active.insert(i);
                 } else {
