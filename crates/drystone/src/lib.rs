@@ -11,7 +11,7 @@
 //! - [`geometry`]: convex polygons, their poses, areas and moments.
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
 //! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
-//! - [`check`]: does it stand? - [`mod@plan`]: in which order does it come apart without falling?
+//! - [`mod@check`]: does it stand? - [`mod@plan`]: in which order does it come apart without falling?
 //!
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
 

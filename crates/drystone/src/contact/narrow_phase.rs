@@ -52,11 +52,7 @@ impl Outline {
         let turned = body.polygon.vertices().iter().map(|&v| body.pose.rotate(v));
         let vertices: Vec<Vector> = turned.collect();
         let n = vertices.len();
-        let normal = |k: usize| {
-            -(vertices[(k + 1) % n] - vertices[k])
-                .normalize_or_zero()
-                .perp()
-        };
+        let normal = |k: usize| -(vertices[(k + 1) % n] - vertices[k]).normalize_or_zero().perp();
         let normals = (0..n).map(normal).collect();
         Self { vertices, normals }
     }
@@ -90,19 +86,10 @@ pub(super) fn touch(a: &Outline, b: &Outline, offset: Vector, tolerance: f64) ->
 /// along this normal). Of equal faces the first.
 fn greatest_separation(reference: &Outline, other: &Outline, offset: Vector) -> (usize, f64) {
     let mut best = (0, f64::NEG_INFINITY);
-    for (face, (corner, normal)) in reference
-        .vertices
-        .iter()
-        .zip(&reference.normals)
-        .enumerate()
-    {
+    for (face, (corner, normal)) in reference.vertices.iter().zip(&reference.normals).enumerate() {
         let shift = offset - *corner;
         let nearest = |v: &Vector| normal.dot(*v + shift);
-        let separation = other
-            .vertices
-            .iter()
-            .map(nearest)
-            .fold(f64::INFINITY, f64::min);
+        let separation = other.vertices.iter().map(nearest).fold(f64::INFINITY, f64::min);
         if separation > best.1 {
             best = (face, separation);
         }
@@ -157,48 +144,16 @@ impl Span {
         let [s0, s1] = [i0, i1].map(|v| tangent.dot(v - r0));
         let [h0, h1] = [i0, i1].map(|v| normal.dot(v - r0));
         let gap_at = |s: f64| {
-            if s1 > s0 {
-                h0 + (h1 - h0) * ((s - s0) / (s1 - s0))
-            } else {
-                h0
-            }
+            if s1 > s0 { h0 + (h1 - h0) * ((s - s0) / (s1 - s0)) } else { h0 }
         };
 
-        let incident = |along, gap, corner, k| End {
-            along,
-            gap,
-            corner,
-            incident: Some(k),
-        };
-        let own = |along, corner| End {
-            along,
-            gap: gap_at(along),
-            corner,
-            incident: None,
-        };
-        let low = if s0 >= 0.0 {
-            incident(s0, h0, i0, k0)
-        } else {
-            own(0.0, r0)
-        };
-        let high = if s1 <= length {
-            incident(s1, h1, i1, k1)
-        } else {
-            own(length, r1)
-        };
-        let corner_distance = [r0, r1]
-            .iter()
-            .flat_map(|r| [i0.distance(*r), i1.distance(*r)])
-            .fold(f64::INFINITY, f64::min);
-        Self {
-            reference_face: face,
-            incident_face,
-            normal,
-            length,
-            low,
-            high,
-            corner_distance,
-        }
+        let incident = |along, gap, corner, k| End { along, gap, corner, incident: Some(k) };
+        let own = |along, corner| End { along, gap: gap_at(along), corner, incident: None };
+        let low = if s0 >= 0.0 { incident(s0, h0, i0, k0) } else { own(0.0, r0) };
+        let high = if s1 <= length { incident(s1, h1, i1, k1) } else { own(length, r1) };
+        let corner_distance =
+            [r0, r1].iter().flat_map(|r| [i0.distance(*r), i1.distance(*r)]).fold(f64::INFINITY, f64::min);
+        Self { reference_face: face, incident_face, normal, length, low, high, corner_distance }
     }
 
     /// Turns the span into contact points. `origin` is the reference polygon's centroid.
@@ -221,23 +176,13 @@ impl Span {
             });
             return Touch::At(points.collect());
         }
-        let lowest = if self.high.gap < self.low.gap {
-            self.high
-        } else {
-            self.low
-        };
+        let lowest = if self.high.gap < self.low.gap { self.high } else { self.low };
         let inside = lowest.along > tolerance && lowest.along < self.length - tolerance;
         match lowest.incident {
             Some(corner) if inside && closed(&lowest) => {
                 let feature = match role {
-                    Role::ReferenceIsA => Feature::CornerOfB {
-                        a: self.reference_face,
-                        b: corner,
-                    },
-                    Role::ReferenceIsB => Feature::CornerOfA {
-                        a: corner,
-                        b: self.reference_face,
-                    },
+                    Role::ReferenceIsA => Feature::CornerOfB { a: self.reference_face, b: corner },
+                    Role::ReferenceIsB => Feature::CornerOfA { a: corner, b: self.reference_face },
                 };
                 Touch::At(vec![self.point(role, feature, lowest, origin)])
             }
@@ -251,22 +196,13 @@ impl Span {
     fn point(&self, role: Role, feature: Feature, end: End, origin: Vector) -> TouchPoint {
         // An incident corner lies `gap` above the reference face, a reference corner as far below
         // the incident one.
-        let half = if end.incident.is_some() {
-            -0.5 * end.gap
-        } else {
-            0.5 * end.gap
-        };
+        let half = if end.incident.is_some() { -0.5 * end.gap } else { 0.5 * end.gap };
         let point = origin + end.corner + half * self.normal;
         let normal = match role {
             Role::ReferenceIsA => self.normal,
             Role::ReferenceIsB => -self.normal,
         };
-        TouchPoint {
-            feature,
-            point,
-            normal,
-            gap: end.gap,
-        }
+        TouchPoint { feature, point, normal, gap: end.gap }
     }
 }
 
