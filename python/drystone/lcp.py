@@ -59,6 +59,8 @@ class Start:
                 "start: indices and z must be vectors of one length, "
                 f"not of shapes {self.indices.shape} and {self.z.shape}"
             )
+        if np.any(self.indices < 0):
+            raise StartError(f"start: index {self.indices.min()} is negative")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -118,6 +120,10 @@ def solve(
     """
     if start is not None and not isinstance(start, Start):
         raise StartError(f"start must be an lcp.Start (see Solution.start), not {start!r:.60}")
+    if method not in METHODS:
+        raise LcpError(f"unknown method {method!r}: choose one of {', '.join(METHODS)}")
+    if pivot_limit is not None and pivot_limit < 0:
+        raise LcpError(f"pivot_limit is {pivot_limit}: it must be zero or more")
     indptr, indices, data = _compressed_columns(M)
     core = _core.lcp_solve(
         indptr,

@@ -161,6 +161,9 @@ def plan(
     >>> ds.plan(ds.scenes.column(4)).found
     True
     """
+    for limit, what in ((node_limit, "node_limit"), (time_limit, "time_limit")):
+        if limit is not None and not limit >= 0:
+            raise ValueError(f"{what} is {limit}: it must be zero or more")
     return Plan._of(
         _core.plan(scene._core, _stability_test(scene, test), node_limit, time_limit, progress),
         test,

@@ -229,6 +229,9 @@ def _delete_last(highs: highspy.Highs, columns: int, rows: int) -> None:
 
 def _decide(highs: highspy.Highs) -> tuple[bool, int]:
     """Solve, and by the interior point method if the simplex method ends without an answer."""
+    if highs.getNumCol() == 0:
+        # HiGHS calls a model without columns empty, whatever its rows demand.
+        return not np.any(highs.getLp().row_lower_), 0
     highs.run()
     pivots = int(highs.getInfo().simplex_iteration_count)
     stands = _answer(highs)

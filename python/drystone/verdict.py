@@ -48,7 +48,12 @@ class Verdict:
     names: tuple[str, ...]
     """The movable bodies checked, in the order of the rows of `accelerations`."""
     accelerations: NDArray[np.float64]
-    """(bodies, 3): x and y in m/s^2, and the angular one in rad/s^2, counter-clockwise."""
+    """(bodies, 3): x and y in m/s^2, and the angular one in rad/s^2, counter-clockwise.
+
+    Zero if and only if stable. Where a contact with friction slides they are those of the convex
+    model (maximum dissipation), in which it also opens: a block on a slope of angle a accelerates
+    by g sin(a - phi) in the direction phi = atan(friction) off the slope, not by Coulomb's
+    g (sin a - friction cos a) along it."""
     falling: tuple[str, ...]
     """Names of the bodies that accelerate."""
     pivots: int

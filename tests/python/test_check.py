@@ -54,12 +54,18 @@ def test_the_leaning_plank_turns_about_the_edge_of_its_pier(leaning: ds.Scene) -
     assert verdict.acceleration("plank") == pytest.approx(expected)
 
 
-def test_a_sliding_block_accelerates_at_g_sin_minus_mu_g_cos() -> None:
-    angle, mu = math.radians(30), 0.3
-    verdict = ds.check(ds.scenes.slope(30, friction=mu))
+@pytest.mark.parametrize("mu", [0.0, 0.3])
+def test_a_sliding_block_accelerates_as_the_convex_model_says(mu: float) -> None:
+    """Without friction g sin a, along the slope. With it, the acceleration nearest to free fall
+    among those that the cone's edge does not oppose: g sin(a - phi), tan phi = mu, and turned by
+    phi out of the slope. (Coulomb's law keeps it on the slope: g (sin a - mu cos a).)
+    """
+    angle, phi = math.radians(30), math.atan(mu)
+    verdict = ds.check(ds.scenes.slope(30, friction=mu, width=2))
     assert not verdict.stable
     moves = verdict.acceleration(verdict.names[0])
-    assert np.hypot(*moves[:2]) == pytest.approx(G * (math.sin(angle) - mu * math.cos(angle)))
+    assert np.hypot(*moves[:2]) == pytest.approx(G * math.sin(angle - phi))
+    assert math.atan2(-moves[1], -moves[0]) == pytest.approx(angle - phi)
     assert moves[2] == pytest.approx(0, abs=1e-9)
 
 
@@ -111,7 +117,8 @@ def test_the_least_thickness_of_an_arch() -> None:
 
 
 def test_the_least_friction_of_a_thick_arch() -> None:
-    least = _least(lambda mu: ds.check(ds.scenes.arch(20, 0.2, friction=mu)).stable, 0.1, 0.7, 1e-5)
+    """About .31, whatever the thickness; .3092 with 41 voussoirs."""
+    least = _least(lambda mu: ds.check(ds.scenes.arch(41, 0.2, friction=mu)).stable, 0.1, 0.7, 1e-5)
     assert 0.309 < least < 0.315
 
 

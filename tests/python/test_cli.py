@@ -133,7 +133,7 @@ BAD = {
     "no such test": (["plan", "column:3", "--test", "simplex"], ["simplex"]),
     "no such option": (["plan", "column:3", "--quickly"], ["--quickly"]),
     "no such command": (["plane", "column:3"], ["plane"]),
-    "a limit that is no number": (["plan", "column:3", "--node-limit", "x"], ["x"]),
+    "a limit that is no number": (["plan", "column:3", "--node-limit", "x"], ["--node-limit"]),
     "nothing to check": (["check"], ["SCENE"]),
     "a picture of another kind": (["check", "column:3", "-o", "x.gif"], [".svg", ".png"]),
     "nowhere to write": (["check", "column:3", "-o", "no/such/x.svg"], ["no/such/x.svg"]),

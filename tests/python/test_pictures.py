@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from pathlib import Path
 
@@ -89,9 +90,12 @@ def test_every_block_and_force_is_drawn() -> None:
     assert any(text.endswith(" N") for text in _texts(figure))
 
 
-def test_arrows_are_to_scale(block: ds.Scene) -> None:
+def test_arrows_are_to_scale() -> None:
     """Two equal forces and the key: lengths in proportion to newtons."""
-    figure = pictures.verdict_figure(ds.check(block))
+    scene = ds.Scene(friction=0)
+    scene.add_box((0, -0.5), (4, 1), fixed=True)
+    scene.add_box((0, 0.5), (1, 1), density=2.0)
+    figure = pictures.verdict_figure(ds.check(scene))
     lengths = [np.ptp(arrow.get_xy(), axis=0).max() for arrow in _arrows(figure, style.FORCE)]
     assert lengths[0] == pytest.approx(lengths[1])
     key = next(text for text in _texts(figure) if text.endswith(" N"))
@@ -140,7 +144,13 @@ def test_global_state_is_left_alone() -> None:
     before = dict(mpl.rcParams)
     pictures.svg(pictures.scene_figure(ds.scenes.column(3)))
     assert dict(mpl.rcParams) == before
-    assert "matplotlib.pyplot" not in sys.modules
+
+
+def test_pyplot_is_not_loaded() -> None:
+    code = "import drystone as ds, sys; ds.scenes.column(3)._repr_svg_(); print(*sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert "matplotlib.figure" in ran.stdout.split()
+    assert "matplotlib.pyplot" not in ran.stdout.split()
 
 
 def test_the_disassembly_graph_has_every_sub_assembly() -> None:

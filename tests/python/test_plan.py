@@ -63,14 +63,14 @@ def test_one_thousand_random_assemblies() -> None:
     stands = 0
     for _ in range(1000):
         # Small ones are the most, but every size up to 60 is there.
-        blocks = int(2 + 59 * rng.uniform() ** 3)
+        blocks = int(2 + 59 * rng.uniform() ** 2)
         scene = dropped(rng, blocks, friction=float(rng.uniform()))
         verdict = ds.check(scene)
         program = statics.ColdProgram(statics.Equilibrium.of(scene))
         assert program(list(range(blocks)), blocks - 1)[0] == verdict.stable
         stands += verdict.stable
         searches = [
-            [(r.size, r.stable) for r in ds.plan(scene, test, node_limit=25).records]
+            [(r.size, r.stable) for r in ds.plan(scene, test, node_limit=40).records]
             for test in TESTS
         ]
         assert all(search == searches[0] for search in searches)
@@ -111,19 +111,21 @@ def test_limits_hand_back_the_best_so_far() -> None:
 
 def test_progress_is_told() -> None:
     calls: list[tuple[int, int, int]] = []
-    scene = orderless(13)
-    plan = ds.plan(scene, node_limit=20000, progress=lambda *told: calls.append(told))
+    plan = ds.plan(orderless(18), time_limit=0.5, progress=lambda *told: calls.append(told))
     assert calls
     for tests, placed, total in calls:
         assert 0 <= tests <= plan.tests
-        assert 0 <= placed <= total == 16
+        assert 0 <= placed <= total == 21
 
 
 def test_an_interrupt_is_a_status() -> None:
     def interrupt(tests: int, placed: int, total: int) -> None:
         raise KeyboardInterrupt
 
-    plan = ds.plan(orderless(13), progress=interrupt)
+    try:
+        plan = ds.plan(orderless(18), progress=interrupt)
+    except KeyboardInterrupt:
+        pytest.fail("the best so far was lost")
     assert (plan.status, plan.found) == ("interrupted", False)
 
 
@@ -132,7 +134,7 @@ def test_an_error_in_progress_reaches_the_caller() -> None:
         raise RuntimeError("from the callback")
 
     with pytest.raises(RuntimeError, match="from the callback"):
-        ds.plan(orderless(13), progress=fail)
+        ds.plan(orderless(18), progress=fail)
 
 
 def test_the_same_plan_again() -> None:

@@ -96,7 +96,7 @@ BAD = {
     ),
     "the same name": (lambda s: s.add_box((0, 2), (1, 1), name="ground"), ["ground", "differ"]),
     "empty name": (lambda s: s.add_box((0, 2), (1, 1), name=""), ["name", "empty"]),
-    "two corners": (lambda s: s.add_polygon([(0, 0), (1, 0)], name="x"), ["x", "corner"]),
+    "two corners": (lambda s: s.add_polygon([(0, 0), (1, 0)], name="x"), ["x", "at least three"]),
     "clockwise": (
         lambda s: s.add_polygon([(0, 2), (0, 3), (1, 2)], name="x"),
         ["x", "clockwise"],
