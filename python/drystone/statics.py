@@ -30,8 +30,17 @@ PRIMAL_SIMPLEX = 4
 """HiGHS's simplex_strategy for cold and warm starts alike."""
 
 
+RESCUES: tuple[dict[str, str | int], ...] = (
+    {"solver": "ipm", "presolve": "on"},
+    {"solver": "simplex", "presolve": "on", "simplex_strategy": 1},
+)
+"""What is tried, in this order, where the primal simplex method ends without an answer: the
+interior point method (which without presolve seldom proves a model infeasible), then the dual
+simplex method."""
+
+
 class StaticsError(DrystoneError):
-    """Neither the simplex method nor the interior point method decided a linear program."""
+    """None of HiGHS's methods decided a linear program."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -228,26 +237,31 @@ def _delete_last(highs: highspy.Highs, columns: int, rows: int) -> None:
 
 
 def _decide(highs: highspy.Highs) -> tuple[bool, int]:
-    """Solve, and by the interior point method if the simplex method ends without an answer."""
+    """Solve; in another way if the primal simplex method ends without an answer, as it may."""
     if highs.getNumCol() == 0:
         # HiGHS calls a model without columns empty, whatever its rows demand.
         return not np.any(highs.getLp().row_lower_), 0
     highs.run()
-    pivots = int(highs.getInfo().simplex_iteration_count)
     stands = _answer(highs)
-    if stands is None:
-        second = _new_model()
-        second.passModel(highs.getLp())
-        second.setOptionValue("solver", "ipm")
-        second.run()
-        stands = _answer(second)
-        if stands is None:
-            raise StaticsError(
-                "HiGHS decided a stability test neither by the simplex method "
-                f"({highs.modelStatusToString(highs.getModelStatus())}) nor by the interior point "
-                f"method ({second.modelStatusToString(second.getModelStatus())})"
-            )
-    return stands, max(pivots, 0)
+    pivots = int(highs.getInfo().simplex_iteration_count)
+    return (_rescued(highs) if stands is None else stands), max(pivots, 0)
+
+
+def _rescued(highs: highspy.Highs) -> bool:
+    """The answer of the first of `RESCUES` that has one. StaticsError if none does."""
+    for options in RESCUES:
+        other = _new_model()
+        other.passModel(highs.getLp())
+        for option, value in options.items():
+            other.setOptionValue(option, value)
+        other.run()
+        stands = _answer(other)
+        if stands is not None:
+            return stands
+    raise StaticsError(
+        "HiGHS decided a stability test by none of its methods; the primal simplex method ended "
+        f"with {highs.modelStatusToString(highs.getModelStatus())!r}"
+    )
 
 
 def _answer(highs: highspy.Highs) -> bool | None:

@@ -51,31 +51,33 @@ def test_gravity_and_mass_do_not_matter() -> None:
         assert not program([1], 1)[0]
 
 
-class _NoAnswer(highspy.Highs):
-    """A simplex method that always gives up; the interior point method too, if told so."""
+class _Stubborn(highspy.Highs):
+    """HiGHS, but the methods named in `silent` end without an answer."""
 
-    both = False
+    silent: tuple[str, ...] = ()
 
     def getModelStatus(self) -> highspy.HighsModelStatus:  # noqa: N802 (HiGHS names it)
-        by_simplex = self.getOptionValue("solver")[1] == "simplex"
-        if by_simplex or self.both:
+        presolved = self.getOptionValue("presolve")[1] == "on"
+        method = self.getOptionValue("solver")[1] if presolved else "primal"
+        if method in self.silent:
             return highspy.HighsModelStatus.kUnknown
         return super().getModelStatus()
 
 
-@pytest.mark.parametrize("both", [False, True])
-def test_the_interior_point_method_decides_if_the_simplex_method_does_not(
-    both: bool, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("silent", [("primal",), ("primal", "ipm")])
+def test_another_method_decides_where_the_simplex_method_does_not(
+    silent: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    scene = ds.scenes.five_blocks()
-    monkeypatch.setattr(_NoAnswer, "both", both)
-    monkeypatch.setattr(statics.highspy, "Highs", _NoAnswer)
-    program = statics.ColdProgram(statics.Equilibrium.of(scene))
-    if both:
-        with pytest.raises(ds.StaticsError, match="neither by the simplex method"):
-            program([0], 0)
-        with pytest.raises(ds.StaticsError):
-            ds.plan(scene, "lp")
-    else:
-        assert program([0, 2, 4], 4)[0]
-        assert not program([0, 2], 2)[0]
+    monkeypatch.setattr(_Stubborn, "silent", silent)
+    monkeypatch.setattr(statics.highspy, "Highs", _Stubborn)
+    program = statics.ColdProgram(statics.Equilibrium.of(ds.scenes.five_blocks()))
+    assert program([0, 2, 4], 4)[0]
+    assert not program([0, 2], 2)[0]
+
+
+def test_no_answer_is_an_error_and_never_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_Stubborn, "silent", ("primal", "ipm", "simplex"))
+    monkeypatch.setattr(statics.highspy, "Highs", _Stubborn)
+    for test in ("lp", "lp-warm"):
+        with pytest.raises(ds.StaticsError, match="none of its methods"):
+            ds.plan(ds.scenes.five_blocks(), test)
