@@ -51,6 +51,7 @@ def test_files_are_written(tmp_path: Path, suffix: str) -> None:
         "falls": ds.check(scene, ["1", "3"]),
         "plan": ds.plan(scene),
         "no plan": ds.plan(orderless(1)),
+        "whole falls": ds.plan(ds.scenes.diamond(5)),
     }.items():
         path = tmp_path / f"{name}.{suffix}"
         drawn.draw(path)
@@ -136,8 +137,12 @@ def test_an_empty_scene_is_a_picture() -> None:
 
 def test_the_same_picture_every_time() -> None:
     scene = ds.scenes.random_stack(12)
-    first, again = (pictures.svg(pictures.scene_figure(scene)) for _ in range(2))
-    assert first == again
+    for draw in (
+        lambda: scene._repr_svg_(),
+        lambda: ds.check(scene)._repr_svg_(),
+        lambda: ds.plan(scene)._repr_svg_(),
+    ):
+        assert draw() == draw()
 
 
 def test_global_state_is_left_alone() -> None:

@@ -68,11 +68,12 @@ def _fall_table(verdict: Verdict) -> Table:
 def _table(first: str, *others: str) -> Table:
     from rich import box
     from rich.table import Table
+    from rich.text import Text
 
     table = Table(box=box.SIMPLE_HEAD)
     table.add_column(first)
     for title in others:
-        table.add_column(title, justify="right")
+        table.add_column(Text(title), justify="right")  # Text: [m] is a unit, not markup
     return table
 
 

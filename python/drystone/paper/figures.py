@@ -13,7 +13,7 @@ from drystone.planning import plan
 
 MARKS = {
     "lp": ("o", "#8a6d3b", "LP, cold (HiGHS)"),
-    "lp-warm": ("s", "#c99a2e", "LP, warm (HiGHS)"),
+    "lp-warm": ("s", "none", "LP, warm (HiGHS)"),
     "lcp": ("^", "#1f6fb2", "LCP"),
     "reuse": ("D", "#2c8a57", "LCP + reuse"),
 }
@@ -55,10 +55,10 @@ def pivots_by_size(row: Row) -> Figure:
             [record.size for record in records],
             [max(record.pivots, 0.5) for record in records],
             mark,
-            markersize=3.5,
+            markersize=3.5 if colour != "none" else 6,
             markerfacecolor=colour,
-            markeredgecolor="white",
-            markeredgewidth=0.3,
+            markeredgecolor="white" if colour != "none" else "#c99a2e",
+            markeredgewidth=0.3 if colour != "none" else 0.9,
             label=label,
         )
     axes.set_yscale("log")

@@ -69,12 +69,19 @@ def verdict_figure(verdict: Verdict) -> Figure:
 
 
 def plan_figure(plan: Plan) -> Figure:
-    """Blocks coloured by their place in the order; without one, how far the search came."""
-    headline, _, details = str(plan).partition("; ")
+    """Blocks coloured by their place in the order; without one, how far the search came.
+
+    An assembly that does not stand as a whole is drawn as it falls.
+    """
+    if plan.status == "whole_falls" and plan.whole is not None:
+        return verdict_figure(plan.whole)
+    # No times: the same plan is the same picture.
+    work = f"{counted(plan.tests, 'test')} ({plan.test}), {counted(plan.pivots, 'pivot')}"
+    headline = str(plan).partition("; ")[0]
     bodies = plan.scene.bodies
     if not plan.found:
-        return _unfinished_figure(plan, bodies, headline, details)
-    canvas = fitted(bodies, headline, details.partition("\n")[0], colour_bar=True)
+        return _unfinished_figure(plan, bodies, headline, work)
+    canvas = fitted(bodies, headline, work, colour_bar=True)
     colours = colormaps[style.ORDER_MAP]
     last = max(len(plan.order) - 1, 1)
     fills = {name: to_hex(colours(1 - i / last)) for i, name in enumerate(plan.order)}
@@ -85,8 +92,11 @@ def plan_figure(plan: Plan) -> Figure:
     return canvas.figure
 
 
-def _unfinished_figure(plan: Plan, bodies: Sequence[Body], headline: str, details: str) -> Figure:
-    canvas = fitted(bodies, headline, details)
+def _unfinished_figure(plan: Plan, bodies: Sequence[Body], headline: str, work: str) -> Figure:
+    legend = f"reached: {counted(len(plan.reached), 'block')}"
+    if plan.falls_next:
+        legend += "; red: something falls when any of these is added"
+    canvas = fitted(bodies, headline, f"{legend}\n{work}")
     fills = dict.fromkeys(plan.reached, style.STONE)
     fills |= dict.fromkeys(plan.falls_next, style.FALLING)
     draw_fixed(canvas, bodies)

@@ -23,7 +23,7 @@ CELL = 1.0
 """A node's width and height; all else below is in this unit."""
 GAP = (0.28, 0.75)
 """Space between nodes of a row, and between rows."""
-INCHES = 0.72
+INCHES = 0.8
 """A cell on paper."""
 
 SubAssembly = tuple[Sequence[str], bool]
@@ -39,14 +39,15 @@ def graph_figure(scene: Scene, nodes: Sequence[SubAssembly], order: Sequence[str
     rows = _rows(nodes)
     places = _places(rows)
     width = max(x for x, _ in places.values()) - min(x for x, _ in places.values()) + CELL
-    height = (CELL + GAP[1]) * len(rows)
     margin = 0.2
+    top = 1.5 * CELL - 0.3
+    bottom = -(CELL + GAP[1]) * (len(rows) - 1) - CELL / 2 - margin
     figure = Figure(
-        figsize=(INCHES * (width + 2 * margin), INCHES * (height + 2 * margin)), facecolor="white"
+        figsize=(INCHES * (width + 2 * margin), INCHES * (top - bottom)), facecolor="white"
     )
     axes = figure.add_axes((0, 0, 1, 1))
     axes.set_xlim(-width / 2 - margin, width / 2 + margin)
-    axes.set_ylim(-height + CELL / 2 - margin + GAP[1] / 2, CELL / 2 + GAP[1] / 2 + margin)
+    axes.set_ylim(bottom, top)
     axes.set_axis_off()
     stands = {frozenset(names): stable for names, stable in nodes}
     _draw_edges(axes, places, stands, _path(order))
@@ -56,7 +57,7 @@ def graph_figure(scene: Scene, nodes: Sequence[SubAssembly], order: Sequence[str
     stable = sum(stands.values())
     axes.text(
         -width / 2,
-        CELL / 2 + GAP[1] / 2,
+        top - 0.3,
         f"{len(nodes)} sub-assemblies: {stable} stand, {len(nodes) - stable} fall",
         size=10,
         weight="bold",
