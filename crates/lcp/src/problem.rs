@@ -13,6 +13,9 @@ pub struct Problem {
 /// rounding leaves in a product `G' M^-1 G` that was summed in two different orders.
 const SYMMETRY: f64 = 1e-12;
 
+/// `|M_ij|` may exceed `sqrt(M_ii M_jj)` by this much of it; rounding in `G' M^-1 G` with repeated columns is near 1e-15.
+const SEMIDEFINITE: f64 = 1e-9;
+
 impl Problem {
     /// Takes a sparse matrix (n x n) and a vector (n).
     ///
@@ -70,7 +73,8 @@ impl Problem {
         Self { m: self.m.principal(indices), q: indices.iter().map(|&i| self.q[i]).collect() }
     }
 
-    /// Checks that `M` is symmetric with a diagonal that is not negative, as principal pivoting needs.
+    /// Checks that `M` is symmetric and that no principal block of order one or two is indefinite, as principal pivoting
+    /// needs. Larger indefinite blocks show up in a solve.
     ///
     /// # Errors
     /// [`LcpError::NotSymmetric`] or [`LcpError::NotSemidefinite`], naming the first offending entry.
@@ -86,6 +90,20 @@ impl Problem {
                 let size = (diagonal[row] * diagonal[column]).sqrt().max(value.abs());
                 if (value - mirror).abs() > SYMMETRY * size {
                     return Err(LcpError::NotSymmetric { row, column, value, mirror });
+                }
+            }
+        }
+        self.require_small_blocks_semidefinite(&diagonal)
+    }
+
+    /// `|M_ij| <= sqrt(M_ii M_jj)`: else `y = e_i / sqrt(M_ii) -+ e_j / sqrt(M_jj)` has negative curvature.
+    fn require_small_blocks_semidefinite(&self, diagonal: &[f64]) -> Result<(), LcpError> {
+        for column in 0..self.len() {
+            let (rows, values) = self.m.column(column);
+            for (&index, value) in rows.iter().zip(values) {
+                let bound = diagonal[index].sqrt() * diagonal[column].sqrt();
+                if value.abs() > bound * (1.0 + SEMIDEFINITE) {
+                    return Err(LcpError::NotSemidefinite { index, curvature: 2.0 - 2.0 * value.abs() / bound });
                 }
             }
         }
