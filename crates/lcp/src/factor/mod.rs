@@ -3,6 +3,8 @@
 mod dense;
 mod sparse;
 mod symbolic;
+#[cfg(test)]
+mod tests;
 
 pub use dense::DenseFactor;
 pub use sparse::SparseFactor;
