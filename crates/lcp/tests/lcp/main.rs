@@ -1,0 +1,13 @@
+//! Tests of the solver crate by topic, in one binary. Answers are checked from `M` and `q` alone (`verify`).
+
+mod bad_input;
+mod brute_force;
+mod contact;
+mod cycling;
+mod masked;
+mod problems;
+mod random;
+mod reuse;
+mod textbook;
+mod verify;
+mod worst_case;
