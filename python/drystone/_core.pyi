@@ -6,6 +6,29 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Body",
+    "Contact",
+    "ContactForce",
+    "DrystoneError",
+    "Generators",
+    "LcpError",
+    "LcpSolution",
+    "Plan",
+    "Scene",
+    "SceneError",
+    "StartError",
+    "TestRecord",
+    "Verdict",
+    "__version__",
+    "catalogue",
+    "check",
+    "disassembly_graph",
+    "generators",
+    "lcp_solve",
+    "plan",
+]
+
 __version__: str
 
 class DrystoneError(Exception): ...
@@ -15,12 +38,12 @@ class StartError(LcpError): ...
 
 @final
 class Scene:
-    def __init__(
-        self,
+    def __new__(
+        cls,
         gravity: tuple[float, float],
         friction: float,
         contact_tolerance: float | None = None,
-    ) -> None: ...
+    ) -> Scene: ...
     @property
     def gravity(self) -> tuple[float, float]: ...
     @property
