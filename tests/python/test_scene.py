@@ -176,6 +176,7 @@ def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
 def test_the_scenes_have_the_defaults_of_the_core() -> None:
     from drystone import _core
 
+    assert [name for name, _, _ in _core.catalogue()] == ds.scenes.__all__
     for name in ds.scenes.__all__:
         assert getattr(ds.scenes, name)().to_json() == _core.Scene.built_in(name, {}).to_json()
 

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from drystone import scenes
+from drystone import _core, scenes
 from drystone.cli.inputs import reporting_files
 from drystone.scene import Scene
 
@@ -35,7 +35,7 @@ def root(
     return 0
 
 
-def _command(builder: Callable[..., Scene]) -> Callable[..., int]:
+def _command(builder: Callable[..., Scene], helps: dict[str, str]) -> Callable[..., int]:
     """A command whose options are the builder's parameters, and `--output`."""
 
     def write(**options: Any) -> int:
@@ -50,8 +50,11 @@ def _command(builder: Callable[..., Scene]) -> Callable[..., int]:
         return 0
 
     parameters = [
-        parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY)
-        for parameter in inspect.signature(builder, eval_str=True).parameters.values()
+        parameter.replace(
+            kind=inspect.Parameter.KEYWORD_ONLY,
+            annotation=Annotated[parameter.annotation, typer.Option(help=helps[name])],
+        )
+        for name, parameter in inspect.signature(builder, eval_str=True).parameters.items()
     ]
     parameters.append(
         inspect.Parameter("output", inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Output)
@@ -65,6 +68,7 @@ def _first_line(builder: Callable[..., Scene]) -> str:
     return (builder.__doc__ or "").strip().splitlines()[0]
 
 
-for _name in scenes.__all__:
+for _name, _, _parameters in _core.catalogue():
     _builder = getattr(scenes, _name)
-    scene_app.command(_name, help=_first_line(_builder))(_command(_builder))
+    _helps = {parameter: summary for parameter, summary, _, _ in _parameters}
+    scene_app.command(_name, help=_first_line(_builder))(_command(_builder, _helps))
