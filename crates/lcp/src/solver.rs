@@ -188,6 +188,7 @@ impl Solver {
                 self.admit(i);
             }
         }
+        self.recompute_w();
         Ok(())
     }
 
@@ -485,13 +486,16 @@ impl Solver {
                 .filter(|&(step, _)| step < self.z[i]);
             let step = leaving.map_or(self.z[i], |(step, _)| step);
             for &j in self.active.members() {
-                self.z[j] = (self.z[j] - step * self.dz[j]).max(0.0);
+                self.z[j] = take(self.z[j], step * self.dz[j]);
             }
-            self.z[i] -= step;
+            self.z[i] = take(self.z[i], step);
             let Some((_, j)) = leaving else { return };
             self.z[j] = 0.0;
             self.factor.remove(j);
             self.active.remove(j);
+            if self.z[i] == 0.0 {
+                return;
+            }
         }
     }
 
@@ -619,6 +623,12 @@ impl Solver {
             .fold(0.0, f64::max);
         if worst == 0.0 { 0.0 } else { worst / self.own_scale() }
     }
+}
+
+/// `z - change`, and zero where the difference is rounding: it must not be the largest number of a problem with q = 0.
+fn take(z: f64, change: f64) -> f64 {
+    let rest = z - change;
+    if rest > ROUNDING * z { rest } else { 0.0 }
 }
 
 fn largest(x: &[f64], members: &[usize]) -> f64 {

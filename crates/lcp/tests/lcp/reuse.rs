@@ -106,6 +106,15 @@ fn a_start_with_dependent_rows_is_reduced_to_a_basis() {
     }
 }
 
+/// With q = 0 a start on dependent rows collapses to z = 0; what rounding leaves of it must not count as a violation.
+#[test]
+fn a_start_that_collapses_to_zero_leaves_nothing_to_do() {
+    let m = [3.0, -3.0, 3.0, -3.0, 3.0, -3.0, 3.0, -3.0, 3.0];
+    let start = Start { indices: vec![0, 1, 2], z: vec![1.0, 3.0, 2.0] };
+    let solution = solve(&problem(&m, vec![0.0; 3]), Some(&start)).unwrap();
+    assert_eq!((solution.status, solution.counts.major_cycles), (Status::Solved, 0), "{solution:?}");
+}
+
 /// w = 2 z + 1 z' + q with the solution z = (1, 0) of its first row.
 fn two_rows() -> Problem {
     problem(&[2.0, 1.0, 1.0, 2.0], vec![-2.0, -3.0])
