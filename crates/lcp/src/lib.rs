@@ -22,6 +22,7 @@
 //! ```
 
 mod basis;
+pub mod cone;
 mod counts;
 mod error;
 pub mod factor;

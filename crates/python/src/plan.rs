@@ -156,7 +156,8 @@ fn named_test(name: &str) -> PyResult<Test> {
     match name {
         "lcp" => Ok(Test::Lcp),
         "reuse" => Ok(Test::Reuse),
-        other => Err(PyValueError::new_err(format!("unknown stability test \"{other}\": give \"reuse\" or \"lcp\""))),
+        "reuse-dantzig" => Ok(Test::ReuseDantzig),
+        other => Err(PyValueError::new_err(format!("unknown stability test \"{other}\": give \"reuse\", \"reuse-dantzig\" or \"lcp\""))),
     }
 }
 

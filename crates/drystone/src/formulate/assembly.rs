@@ -9,7 +9,10 @@ use crate::{
     error::SceneError,
     scene::{Body, Scene},
 };
-use drystone_lcp::{Problem, SparseColumns};
+use drystone_lcp::{
+    Problem, SparseColumns,
+    cone::{Columns, ConeSolver},
+};
 
 /// Contacts, generators and loads of a scene.
 #[derive(Debug, Clone)]
@@ -152,6 +155,40 @@ impl Assembly {
         SparseColumns::new(n, indptr, indices, data)
             .and_then(|a| Problem::new(a, b))
             .expect("a validated scene has finite masses, positions and directions")
+    }
+
+    /// Static equilibrium `G f = -F`, `f >= 0` of the complete assembly, without any block yet. Imbalance is measured in
+    /// each block's own weight, moments with its radius of gyration as the arm.
+    pub fn equilibrium(&self) -> ConeSolver {
+        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        for generator in &self.generators {
+            for wrench in &generator.wrenches {
+                let entries = Self::equilibrium_rows(wrench.block).into_iter().zip(wrench.value);
+                for (row, value) in entries.filter(|&(_, value)| value != 0.0) {
+                    indices.push(row);
+                    data.push(value);
+                }
+            }
+            indptr.push(indices.len());
+        }
+        let [gx, gy] = self.gravity;
+        let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+        let unit = |block: usize| {
+            let [per_mass, _, per_inertia] = self.inverse_mass[block];
+            let weight = gravity / per_mass;
+            [weight, weight, weight * (per_mass / per_inertia).sqrt()]
+        };
+        let blocks = 0..self.blocks();
+        let loads: Vec<f64> = blocks.clone().flat_map(|block| self.applied(block).map(|load| -load)).collect();
+        let units: Vec<f64> = blocks.flat_map(unit).collect();
+        Columns::new(3 * self.blocks(), &indptr, &indices, &data)
+            .and_then(|g| ConeSolver::new(g, &loads, &units))
+            .expect("a validated scene has finite masses, positions and directions")
+    }
+
+    /// Rows of [`Self::equilibrium`] that are a block's x force, y force and moment.
+    pub fn equilibrium_rows(block: usize) -> [usize; 3] {
+        [3 * block, 3 * block + 1, 3 * block + 2]
     }
 
     /// `g_i' M^-1 g_j` on one block.

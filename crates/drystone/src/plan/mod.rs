@@ -10,4 +10,4 @@ mod stability;
 
 pub use graph::{GraphNode, disassembly_graph};
 pub use search::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord, plan, plan_with};
-pub use stability::{FromScratch, PlanError, Reuse, StabilityTest, Test, TestOutcome};
+pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

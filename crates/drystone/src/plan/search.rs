@@ -1,6 +1,6 @@
 //! Depth-first search of the disassembly graph.
 
-use super::stability::{FromScratch, PlanError, Reuse, StabilityTest, Test, TestOutcome};
+use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};
 use crate::{
     check::{Verdict, check_blocks},
     formulate::{Assembly, BlockSet},
@@ -136,6 +136,7 @@ pub fn plan(scene: &Scene, test: Test, limits: Limits, monitor: &mut dyn Monitor
     let mut test: Box<dyn StabilityTest + '_> = match test {
         Test::Lcp => Box::new(FromScratch::new(&assembly)),
         Test::Reuse => Box::new(Reuse::new(&assembly)),
+        Test::ReuseDantzig => Box::new(ReuseDantzig::new(&assembly)),
     };
     let setup = setup.elapsed();
     let mut plan = plan_with(&assembly, test.as_mut(), limits, monitor)?;

@@ -5,7 +5,10 @@ use crate::{
     error::SceneError,
     formulate::{Assembly, BlockSet},
 };
-use drystone_lcp::{Settings, Snapshot, Solver, Status};
+use drystone_lcp::{
+    Settings, Snapshot, Solver, Status,
+    cone::{ConeSolver, Mark, Membership},
+};
 
 /// What one test said, and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,8 +60,10 @@ pub trait StabilityTest {
 pub enum Test {
     /// Dantzig's method from scratch.
     Lcp,
-    /// Dantzig's method from the solution of the stable parent.
+    /// Forces of the stable parent, on a basis of the generators that follows the search.
     Reuse,
+    /// Dantzig's method from the solution of the stable parent, as in the paper.
+    ReuseDantzig,
 }
 
 fn solver_for(assembly: &Assembly) -> Solver {
@@ -100,10 +105,69 @@ impl StabilityTest for FromScratch<'_> {
     }
 }
 
-/// Every test starts from the solution of the stable sub-assembly without the block just added (Theorem 1). The
-/// factor follows the search and is never rebuilt.
+/// Every test starts from the forces of the stable sub-assembly without the block just added (Theorem 1).
+///
+/// A sub-assembly that stands has no acceleration, so *any* contact forces that balance its loads solve its
+/// complementarity problem with w = 0: they are looked for on the generators themselves, whose basis is far sparser
+/// than `A = G' M^-1 G`. If there are none, the certificate is a virtual motion that opens no contact against
+/// its force and in which the weights do work: the way in which it falls.
 #[derive(Debug)]
-pub struct Reuse<'a> {
+pub struct Reuse {
+    solver: ConeSolver,
+    /// States of the current sub-assembly and its ancestors, the current one last.
+    path: Vec<Mark>,
+    at_current: bool,
+}
+
+impl Reuse {
+    /// Takes the generators of the complete assembly; the current sub-assembly is empty.
+    pub fn new(assembly: &Assembly) -> Self {
+        let mut solver = assembly.equilibrium();
+        Self { path: vec![solver.mark()], solver, at_current: true }
+    }
+
+    /// The solver, for its counts.
+    pub fn solver(&self) -> &ConeSolver {
+        &self.solver
+    }
+}
+
+impl StabilityTest for Reuse {
+    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
+        if !self.at_current
+            && let Some(&current) = self.path.last()
+        {
+            self.solver.roll_back(current);
+        }
+        self.at_current = false;
+        let before = self.solver.counts().pivots;
+        self.solver.add_rows(&Assembly::equilibrium_rows(added));
+        let stands = match self.solver.solve() {
+            Membership::Inside => true,
+            Membership::Outside => false,
+            trouble => {
+                let reason = format!("{trouble:?} (residual {:.1e})", self.solver.residual());
+                return Err(PlanError::NoAnswer { blocks: blocks.len(), reason });
+            }
+        };
+        Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
+    }
+
+    fn descend(&mut self) {
+        self.path.push(self.solver.mark());
+        self.at_current = true;
+    }
+
+    fn backtrack(&mut self) {
+        self.path.pop();
+        self.at_current = false;
+    }
+}
+
+/// Every test runs Dantzig's method from the solution of the stable sub-assembly without the block just added: the
+/// paper's algorithm. The factor of the active block of `A` follows the search.
+#[derive(Debug)]
+pub struct ReuseDantzig<'a> {
     assembly: &'a Assembly,
     solver: Solver,
     /// States of the current sub-assembly and its ancestors, the current one last.
@@ -111,7 +175,7 @@ pub struct Reuse<'a> {
     at_current: bool,
 }
 
-impl<'a> Reuse<'a> {
+impl<'a> ReuseDantzig<'a> {
     /// Analyses the complete assembly; the current sub-assembly is empty.
     pub fn new(assembly: &'a Assembly) -> Self {
         let solver = solver_for(assembly);
@@ -119,7 +183,7 @@ impl<'a> Reuse<'a> {
     }
 }
 
-impl StabilityTest for Reuse<'_> {
+impl StabilityTest for ReuseDantzig<'_> {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         if !self.at_current
             && let Some(current) = self.path.last()

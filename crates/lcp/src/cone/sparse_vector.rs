@@ -1,0 +1,66 @@
+//! A dense vector that knows where it is not zero.
+
+/// Values of all entries, and a list of those that may differ from zero. Clearing costs only the listed ones.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SparseVector {
+    value: Vec<f64>,
+    listed: Vec<bool>,
+    index: Vec<u32>,
+}
+
+impl SparseVector {
+    pub fn zero(n: usize) -> Self {
+        Self { value: vec![0.0; n], listed: vec![false; n], index: Vec::new() }
+    }
+
+    pub fn get(&self, i: u32) -> f64 {
+        self.value[i as usize]
+    }
+
+    /// Overwrites a listed entry.
+    pub fn set(&mut self, i: u32, value: f64) {
+        self.list(i);
+        self.value[i as usize] = value;
+    }
+
+    pub fn add(&mut self, i: u32, amount: f64) {
+        self.list(i);
+        self.value[i as usize] += amount;
+    }
+
+    /// Lists an entry; true if it was not listed before.
+    pub fn list(&mut self, i: u32) -> bool {
+        let new = !std::mem::replace(&mut self.listed[i as usize], true);
+        if new {
+            self.index.push(i);
+        }
+        new
+    }
+
+    /// Lists entries that are about to be written through [`Self::values`].
+    pub fn list_all(&mut self, entries: &[u32]) {
+        for &i in entries {
+            self.list(i);
+        }
+    }
+
+    /// All values; entries that are not listed are zero and must stay so.
+    pub fn values(&mut self) -> &mut [f64] {
+        &mut self.value
+    }
+
+    pub fn index(&self) -> &[u32] {
+        &self.index
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        self.index.iter().map(|&i| (i, self.value[i as usize]))
+    }
+
+    pub fn clear(&mut self) {
+        for i in self.index.drain(..) {
+            self.value[i as usize] = 0.0;
+            self.listed[i as usize] = false;
+        }
+    }
+}
