@@ -7,10 +7,11 @@ RUST_NEEDED := 1.88
 VENV := $(CURDIR)/.venv
 BIN := $(VENV)/bin
 OUT := out/demo
-PIP := $(BIN)/pip --disable-pip-version-check --quiet
 # One interpreter and one virtual environment for every tool, whatever is active in the shell.
 export VIRTUAL_ENV := $(VENV)
 export PYO3_PYTHON := $(BIN)/python
+export PIP_QUIET := 1
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
 unexport CONDA_PREFIX
 
 has = $(shell command -v $(1) 2>/dev/null)
@@ -66,7 +67,7 @@ types: build
 $(VENV)/.ready: pyproject.toml | tools
 	@echo "== creating .venv"
 	@$(PYTHON) -m venv $(VENV)
-	@$(PIP) install "maturin>=1.9,<2"
+	@$(BIN)/pip install "maturin>=1.9,<2"
 	@touch $@
 
 tools:

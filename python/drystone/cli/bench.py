@@ -20,7 +20,8 @@ def run(folder: Path) -> int:
             rows = paper.measure(lambda what: status.update(f"planning {what}"))
             status.update("drawing")
             written = [paper.write_csv(rows, folder), *paper.write_figures(rows, folder)]
-    console.print(paper.as_table(rows))
+    for table in paper.as_tables(rows):
+        console.print(table)
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
     return 0 if all(row.found for row in rows) else 1
