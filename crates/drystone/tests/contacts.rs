@@ -38,8 +38,8 @@ fn a_square_on_a_square_touches_at_both_ends_of_the_shared_face() {
     square(&mut scene, 0.0, 0.0);
     square(&mut scene, 0.25, 1.0);
     let set = find_contacts(&scene).unwrap();
-    // a's top face (2) runs from right to left, and is shared from x = 0.5 to x = -0.25.
-    assert_eq!(points(&set), [[0.5, 0.5], [-0.25, 0.5]]);
+    // b's bottom face (0) runs from left to right, and is shared from x = -0.25 to x = 0.5.
+    assert_eq!(points(&set), [[-0.25, 0.5], [0.5, 0.5]]);
     for (end, contact) in set.contacts.iter().enumerate() {
         assert_eq!(contact.id.feature, Feature::Faces { a: 2, b: 0, end });
         assert_eq!(contact.normal, [0.0, 1.0]);
@@ -61,7 +61,7 @@ fn a_face_contact_keeps_both_ends_at_any_angle_and_far_from_the_origin() {
         scene.add_box(place(0.3, 0.75), [2.0, 0.5], angle, movable()).unwrap();
         let set = find_contacts(&scene).unwrap();
         assert_eq!(set.contacts.len(), 2, "at {angle} rad");
-        for (contact, x) in set.contacts.iter().zip([0.5, -0.5]) {
+        for (contact, x) in set.contacts.iter().zip([-0.5, 0.5]) {
             let expected = place(x, 0.5);
             let distance = (contact.point[0] - expected[0]).hypot(contact.point[1] - expected[1]);
             // Coordinates of size `far` are rounded to far * 2^-53 in each of a few operations.
@@ -77,7 +77,7 @@ fn side_by_side_faces_count() {
     square(&mut scene, 0.0, 0.0);
     square(&mut scene, 1.0, 0.0);
     let set = find_contacts(&scene).unwrap();
-    assert_eq!(points(&set), [[0.5, -0.5], [0.5, 0.5]]);
+    assert_eq!(points(&set), [[0.5, 0.5], [0.5, -0.5]]);
     assert!(set.contacts.iter().all(|c| c.normal == [1.0, 0.0]));
 }
 

@@ -158,7 +158,7 @@ fn close(a: f64, b: f64, size: f64) {
 /// tested; on a standing sub-assembly the walk goes on or not; and at any time it steps back.
 struct Walk<'a> {
     assembly: &'a Assembly,
-    reuse: Reuse<'a>,
+    reuse: Reuse,
     scratch: FromScratch<'a>,
     placed: Vec<usize>,
     pivots: [usize; 2],

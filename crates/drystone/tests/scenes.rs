@@ -28,7 +28,7 @@ fn a_column_has_one_fixed_square_and_two_points_a_joint() {
     assert_eq!(set.contacts.len(), 2 * 49);
     for (k, pair) in set.contacts.chunks(2).enumerate() {
         let height = k as f64;
-        assert_eq!([pair[0].point, pair[1].point], [[0.5, height], [-0.5, height]]);
+        assert_eq!([pair[0].point, pair[1].point], [[-0.5, height], [0.5, height]]);
         assert!(pair.iter().all(|c| c.normal == [0.0, 1.0] && c.gap == 0.0));
     }
 }
@@ -113,7 +113,7 @@ fn a_block_on_a_slope_keeps_both_its_contacts_at_any_inclination() {
         let set = find_contacts(&scene).unwrap();
         assert_eq!(set.contacts.len(), 2);
         let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
-        for (contact, along) in set.contacts.iter().zip([1.0, -1.0]) {
+        for (contact, along) in set.contacts.iter().zip([-1.0, 1.0]) {
             let miss = [contact.point[0] - along * cos, contact.point[1] - along * sin];
             assert!(miss[0].hypot(miss[1]) < 1e-14, "{degrees} degrees: {miss:?}");
         }

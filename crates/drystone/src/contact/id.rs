@@ -22,7 +22,7 @@ pub enum Feature {
         a: usize,
         /// Face of b.
         b: usize,
-        /// 0 for the end met first along a's face, 1 for the other.
+        /// 0 for the end met first along b's face, 1 for the other.
         end: usize,
     },
     /// A corner of a on a face of b.
