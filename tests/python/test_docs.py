@@ -16,6 +16,7 @@ import drystone as ds
 from conftest import ROOT
 
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+GUIDE = sorted((ROOT / "docs" / "guide").glob("*.md"))
 MODULES = sorted(
     module.name
     for module in pkgutil.walk_packages(ds.__path__, "drystone.")
@@ -28,24 +29,29 @@ def test_docstrings(name: str) -> None:
     assert doctest.testmod(importlib.import_module(name), optionflags=FLAGS).failed == 0
 
 
-def test_readme(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/guide/{path.name}" for path in GUIDE)]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_pages(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The examples of a page run one after another, in one namespace."""
     monkeypatch.chdir(tmp_path)
-    text = (ROOT / "README.md").read_text()
-    examples = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)
-    assert examples
-    for number, example in enumerate(examples):
-        test = doctest.DocTestParser().get_doctest(example, {}, f"README {number}", None, 0)
-        assert test.examples
-        assert doctest.DocTestRunner(optionflags=FLAGS).run(test).failed == 0
+    code = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(), flags=re.DOTALL)
+    test = doctest.DocTestParser().get_doctest("\n".join(code), {}, page, None, 0)
+    assert doctest.DocTestRunner(optionflags=FLAGS).run(test).failed == 0
 
 
-@pytest.mark.parametrize("path", ["README.md", "CONTRIBUTING.md"])
-def test_links_lead_somewhere(path: str) -> None:
-    text = (ROOT / path).read_text()
+def test_the_readme_has_an_example() -> None:
+    assert ">>> ds.check(scene).stable" in (ROOT / "README.md").read_text()
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_links_lead_somewhere(page: str) -> None:
+    text = (ROOT / page).read_text()
     links = re.findall(r"\]\(([^)#]+)\)", text) + re.findall(r'src="([^"]+)"', text)
     for link in links:
         if not link.startswith("http"):
-            assert (ROOT / link).exists(), link
+            assert ((ROOT / page).parent / link).exists(), link
 
 
 @pytest.mark.parametrize(
