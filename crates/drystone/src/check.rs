@@ -6,12 +6,12 @@ use crate::{
     formulate::{Assembly, BlockSet, ContactForce},
     scene::Scene,
 };
-use drystone_lcp::{Counts, Settings, Solver, Status};
+use drystone_lcp::{Counts, Settings, Solver, Status, cone::Membership};
 
-/// A block counts as standing while its acceleration stays below this share of gravity; turning counts by the
-/// speed of the block's corner furthest from its centroid. Rounding in a stack of some hundred blocks leaves 1e-12; a
-/// block that tips over an edge it overhangs by a millionth of its width has about 1e-6.
-pub const STANDS: f64 = 1e-7;
+/// A block is at rest while its acceleration stays below this share of gravity; turning counts by the speed of the
+/// block's corner furthest from its centroid. Rounding in a stack of some hundred blocks leaves 1e-12; a block that
+/// overhangs an edge by a hundred-millionth of its width has about 1e-8.
+pub const AT_REST: f64 = 1e-9;
 
 /// The answer for an assembly or a sub-assembly.
 #[derive(Debug, Clone)]
@@ -58,20 +58,38 @@ fn named_blocks(scene: &Scene, assembly: &Assembly, names: &[String]) -> Result<
     Ok(set)
 }
 
-/// Checks a sub-assembly from scratch.
+/// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
 pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
+    let mut equilibrium = assembly.equilibrium();
+    let mut found = Membership::Inside;
+    for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {
+        equilibrium.add_rows(&Assembly::equilibrium_rows(block));
+        found = equilibrium.solve();
+    }
     let rows = assembly.rows(blocks);
+    if found == Membership::Inside {
+        let (counts, residual) = (equilibrium.counts(), equilibrium.residual());
+        return verdict(assembly, blocks, &rows, |j| equilibrium.f(j), Status::Solved, counts, residual);
+    }
     let mut solver = Solver::new(assembly.problem(), Settings::default())
         .expect("A = G' M^-1 G is symmetric with a positive diagonal");
     solver.add_rows(&rows);
     let status = solver.solve().unwrap_or(Status::NumericalTrouble);
-    verdict(assembly, blocks, &rows, &solver, status)
+    let counts = equilibrium.counts() + solver.counts();
+    verdict(assembly, blocks, &rows, |j| solver.z(j), status, counts, solver.residual())
 }
 
-/// Reads a verdict from a solver that holds the solution of a sub-assembly.
-fn verdict(assembly: &Assembly, blocks: &BlockSet, rows: &[usize], solver: &Solver, status: Status) -> Verdict {
-    let f = |j: usize| solver.z(j);
-    let accelerations = assembly.accelerations(blocks, f);
+/// Reads a verdict from the magnitudes of the generators.
+fn verdict(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    rows: &[usize],
+    f: impl Fn(usize) -> f64,
+    status: Status,
+    counts: Counts,
+    residual: f64,
+) -> Verdict {
+    let accelerations = assembly.accelerations(blocks, &f);
     let falling: Vec<usize> = blocks
         .iter()
         .zip(&accelerations)
@@ -89,8 +107,8 @@ fn verdict(assembly: &Assembly, blocks: &BlockSet, rows: &[usize], solver: &Solv
             .into_iter()
             .map(|force| (assembly.contacts()[force.contact].clone(), force))
             .collect(),
-        counts: solver.counts(),
-        residual: solver.residual(),
+        counts,
+        residual,
     }
 }
 
@@ -103,5 +121,5 @@ fn at_rest(assembly: &Assembly, block: usize, acceleration: &[f64; 3]) -> bool {
     let [gx, gy] = assembly.gravity();
     let [ax, ay, alpha] = *acceleration;
     let radius = assembly.body(block).polygon.vertices().iter().fold(0.0_f64, |radius, v| radius.max(v.length()));
-    ax.hypot(ay).max(alpha.abs() * radius) <= STANDS * gx.hypot(gy)
+    ax.hypot(ay).max(alpha.abs() * radius) <= AT_REST * gx.hypot(gy)
 }

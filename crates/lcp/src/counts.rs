@@ -13,6 +13,19 @@ pub struct Counts {
     pub refactorisations: usize,
 }
 
+impl std::ops::Add for Counts {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            major_cycles: self.major_cycles + other.major_cycles,
+            minor_cycles: self.minor_cycles + other.minor_cycles,
+            pivots: self.pivots + other.pivots,
+            refactorisations: self.refactorisations + other.refactorisations,
+        }
+    }
+}
+
 impl std::ops::Sub for Counts {
     type Output = Self;
 

@@ -57,3 +57,44 @@ pub(crate) fn ratio_test(candidates: &[Candidate], slack: f64, rule: TieRule) ->
     })?;
     Some((chosen.ratio(), chosen.blocker))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Blocker, Candidate, TieRule, ratio_test};
+
+    fn candidate(blocker: Blocker, value: f64, rate: f64) -> Candidate {
+        Candidate { blocker, value, rate }
+    }
+
+    #[test]
+    fn nothing_falling_blocks_nothing() {
+        assert_eq!(ratio_test(&[], 1e-12, TieRule::LargestRate), None);
+    }
+
+    #[test]
+    fn the_first_to_reach_zero_blocks() {
+        let candidates = [candidate(Blocker::Leaves(0), 3.0, 1.0), candidate(Blocker::Enters(1), 4.0, 2.0)];
+        for rule in [TieRule::LargestRate, TieRule::LeastIndex] {
+            assert_eq!(ratio_test(&candidates, 1e-12, rule), Some((2.0, Blocker::Enters(1))));
+        }
+    }
+
+    #[test]
+    fn ties_go_by_rate_or_by_index_and_to_the_driving_row_first() {
+        let (late, early) = (candidate(Blocker::Enters(7), 2.0, 2.0), candidate(Blocker::Leaves(3), 1.0, 1.0));
+        assert_eq!(ratio_test(&[early, late], 0.0, TieRule::LargestRate), Some((1.0, Blocker::Enters(7))));
+        assert_eq!(ratio_test(&[late, early], 0.0, TieRule::LeastIndex), Some((1.0, Blocker::Leaves(3))));
+        let driving = candidate(Blocker::Driving, 0.5, 0.5);
+        for rule in [TieRule::LargestRate, TieRule::LeastIndex] {
+            assert_eq!(ratio_test(&[early, late, driving], 0.0, rule), Some((1.0, Blocker::Driving)));
+        }
+    }
+
+    /// Within the slack the better pivot is taken; the least-index rule knows no slack.
+    #[test]
+    fn a_tiny_rate_yields_to_a_large_one_within_the_slack() {
+        let candidates = [candidate(Blocker::Leaves(0), 0.0, 1e-9), candidate(Blocker::Leaves(1), 1e-13, 1.0)];
+        assert_eq!(ratio_test(&candidates, 1e-12, TieRule::LargestRate), Some((1e-13, Blocker::Leaves(1))));
+        assert_eq!(ratio_test(&candidates, 1e-12, TieRule::LeastIndex), Some((0.0, Blocker::Leaves(0))));
+    }
+}

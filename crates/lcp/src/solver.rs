@@ -320,7 +320,7 @@ impl Solver {
             };
             let slack = 0.1 * self.settings.feasibility * self.own_scale();
             let Some((step, blocker)) = ratio_test(&self.candidates, slack, rule) else {
-                return Ok(self.certify_ray(size));
+                return self.certify_ray(i, size);
             };
             stalled = if step * size > slack { 0 } else { stalled + 1 };
             self.advance(i, step);
@@ -448,18 +448,22 @@ impl Solver {
     }
 
     /// Nothing blocks the direction: y = dz then proves that there is no solution, if `M y = 0`, `y >= 0`, `q' y < 0`.
-    fn certify_ray(&mut self, size: f64) -> Cycle {
+    /// `y' M y = 0` with `(M y)_j = a` not zero is negative curvature: `y - a e_j` has `-a^2` (unit diagonal).
+    fn certify_ray(&mut self, i: usize, size: f64) -> Result<Cycle, LcpError> {
         let y: Vec<f64> = self.dz.iter().map(|&value| value.max(0.0)).collect();
         let image = self.m.multiply_add(&y, &vec![0.0; y.len()]);
         let worst =
             (0..y.len()).filter(|&j| self.role[j] != Role::Absent).fold(0.0_f64, |worst, j| worst.max(image[j].abs()));
         let progress: f64 = y.iter().zip(&self.q).map(|(y, q)| y * q).sum();
+        if worst * worst > self.settings.residual * size * size {
+            return Err(LcpError::NotSemidefinite { index: i, curvature: -worst * worst });
+        }
         if worst > self.settings.residual * size || progress >= 0.0 {
-            return Cycle::LostAccuracy;
+            return Ok(Cycle::LostAccuracy);
         }
         self.ray = Some(y.iter().zip(&self.scaling.d).map(|(y, d)| y * d).collect());
         self.residual = self.present_residual();
-        Cycle::Ray
+        Ok(Cycle::Ray)
     }
 
     /// Puts an active `z_i` of a start into the factor. Where it depends on the rows already there, the values are

@@ -222,6 +222,23 @@ impl Assembly {
         self.generators_on[added].iter().copied().filter(joins).collect()
     }
 
+    /// Movable blocks from the supports upward: by the height of their centroid against gravity, the lower index first
+    /// among equals. Heights within rounding of one another count as equal, so that a row of a wall is taken in order.
+    pub fn upward(&self) -> Vec<usize> {
+        const LEVELS: f64 = 1e9;
+        let [gx, gy] = self.gravity;
+        let size = gx.hypot(gy);
+        let height = |block: usize| {
+            let [x, y] = self.body(block).pose.position;
+            if size == 0.0 { 0.0 } else { -(x * gx + y * gy) / size }
+        };
+        let heights: Vec<f64> = (0..self.blocks()).map(height).collect();
+        let extent = heights.iter().fold(0.0_f64, |extent, h| extent.max(h.abs())).max(f64::MIN_POSITIVE);
+        let mut order: Vec<usize> = (0..self.blocks()).collect();
+        order.sort_by_key(|&block| ((heights[block] / extent * LEVELS).round() as i64, block));
+        order
+    }
+
     /// Accelerations `M^-1 (F + G f)` of the blocks of a sub-assembly, in the order of the set: m/s^2, m/s^2,
     /// rad/s^2. `f(j)` is the magnitude of generator j, N, zero outside the sub-assembly.
     pub fn accelerations(&self, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> Vec<[f64; 3]> {

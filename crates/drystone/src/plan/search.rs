@@ -219,7 +219,7 @@ impl<'a> Search<'a> {
             assembly,
             limits,
             start,
-            upward: upward(assembly),
+            upward: assembly.upward(),
             neighbours,
             on_support,
             visited: HashSet::new(),
@@ -315,21 +315,4 @@ impl<'a> Search<'a> {
         placed.iter().for_each(|&block| set.insert(block));
         self.upward.iter().copied().filter(|&block| !set.contains(block) && self.touches(block, &set)).collect()
     }
-}
-
-/// Blocks by the height of their centroid against gravity, the lower index first among equals. Heights within
-/// rounding of one another count as equal, so that a row of a wall is taken in order.
-fn upward(assembly: &Assembly) -> Vec<usize> {
-    const LEVELS: f64 = 1e9;
-    let [gx, gy] = assembly.gravity();
-    let size = gx.hypot(gy);
-    let height = |block: usize| {
-        let [x, y] = assembly.body(block).pose.position;
-        if size == 0.0 { 0.0 } else { -(x * gx + y * gy) / size }
-    };
-    let heights: Vec<f64> = (0..assembly.blocks()).map(height).collect();
-    let extent = heights.iter().fold(0.0_f64, |extent, h| extent.max(h.abs())).max(f64::MIN_POSITIVE);
-    let mut order: Vec<usize> = (0..assembly.blocks()).collect();
-    order.sort_by_key(|&block| ((heights[block] / extent * LEVELS).round() as i64, block));
-    order
 }

@@ -98,6 +98,8 @@ fn dantzig_refuses_what_is_not_semidefinite() {
     // Every block of order two is definite: (1, 1, 1) has curvature 3 - 6 * 0.6, found on the way.
     let a = -0.6;
     index(&[1.0, a, a, a, 1.0, a, a, a, 1.0], vec![-1.0; 3]);
+    // (1, 1, 0) has no curvature but an image, (0, 0, 0.7): no proof that there is no solution.
+    index(&[1.0, -1.0, 0.5, -1.0, 1.0, 0.2, 0.5, 0.2, 1.0], vec![-1.0, -1.0, 5.0]);
 }
 
 /// Random symmetric indefinite matrices: an error or an answer that holds.
