@@ -13,6 +13,8 @@
 mod equilibration;
 mod inverse;
 mod path;
+#[cfg(test)]
+mod tests;
 
 use super::Method;
 use crate::{

@@ -115,6 +115,12 @@ impl<'a> Path<'a> {
         active
     }
 
+    /// The rows `[x_B, B^-1]` that the rule compares.
+    #[cfg(test)]
+    pub fn lexicographic_rows(&self) -> impl Iterator<Item = Vec<f64>> {
+        self.x.iter().enumerate().map(|(r, &x)| [&[x], self.inverse.row(r)].concat())
+    }
+
     /// The row in which `z0` enters: the least `q_i / c_i`. Among equals the last, because `[q_i e_i] / c_i` is
     /// lexicographically least there, which leaves every other row lexicographically positive.
     fn most_uncovered(&self) -> usize {
