@@ -216,11 +216,14 @@ def test_help_answers_at_once() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-def test_an_interrupt_hands_back_the_best_so_far(tmp_path: Path) -> None:
+@pytest.mark.parametrize("test", ["reuse", "lp"])
+def test_an_interrupt_hands_back_the_best_so_far(test: str, tmp_path: Path) -> None:
     orderless(20).save(tmp_path / "scene.json")
     command = [sys.executable, "-c", "from drystone.cli import main; main()"]
     process = subprocess.Popen(
-        [*command, "plan", str(tmp_path / "scene.json"), "--json"],
+        [*command, "plan", str(tmp_path / "scene.json"), "--test", test, "--json"],
+        # A shell may start its background jobs with interrupts ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
