@@ -3,7 +3,8 @@
 /// Counts of one solve, or of a [`Solver`](crate::Solver) since it was made.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Major cycles: rows driven to feasibility. Each ends with one pivot (or with a ray).
+    /// Major cycles: rows driven to feasibility. Each ends with one pivot; with none when it ends on a ray, or when its
+    /// minor cycles alone made the row feasible.
     pub major_cycles: usize,
     /// Minor cycles: pivots inside a major cycle, before the one that ends it.
     pub minor_cycles: usize,

@@ -320,7 +320,12 @@ impl Solver {
             };
             let slack = 0.1 * self.settings.feasibility * self.own_scale();
             let Some((step, blocker)) = ratio_test(&self.candidates, slack, rule) else {
-                return self.certify_ray(i, size);
+                if self.w[i] < -self.settings.feasibility * self.own_scale() {
+                    return self.certify_ray(i, size);
+                }
+                // Minor cycles have made the row feasible, and it depends on the active rows.
+                self.admit(i);
+                return Ok(Cycle::Feasible);
             };
             stalled = if step * size > slack { 0 } else { stalled + 1 };
             self.advance(i, step);
@@ -466,7 +471,7 @@ impl Solver {
         Ok(Cycle::Ray)
     }
 
-    /// Puts an active `z_i` of a start into the factor. Where it depends on the rows already there, the values are
+    /// Puts a row with `w_i = 0` and `z_i >= 0` into the factor. Where it depends on the rows already there, the values are
     /// moved along the null direction, which changes no `w`, until one of them is zero and leaves.
     fn admit(&mut self, i: usize) {
         loop {
