@@ -11,7 +11,7 @@ from drystone import _core
 from drystone.scene import Scene
 from drystone.verdict import Verdict, counted, shorten
 
-TESTS = ("reuse", "lcp", "lp", "lp-warm")
+TESTS = ("reuse", "reuse-dantzig", "lcp", "lp", "lp-warm")
 """The stability tests `plan` knows: see there."""
 
 ENDINGS = {
@@ -149,8 +149,11 @@ def plan(
     Sub-assemblies grow from the fixed bodies upward, one block at a time and depth first; the
     order returned is the reverse. `test` decides on each sub-assembly:
 
-    - "reuse": the contact problem, started from the solution of the sub-assembly it grew from;
-    - "lcp": the contact problem from scratch;
+    - "reuse": forces that balance the loads, on a basis of the contact forces that follows the
+      search: grown by the block that is added, rolled back where the search backs up;
+    - "reuse-dantzig": the contact problem by Dantzig's method, started from the solution of the
+      sub-assembly it grew from, as in the paper;
+    - "lcp": the same from scratch;
     - "lp": static equilibrium as a linear program, a fresh HiGHS model for every test;
     - "lp-warm": the same program in one live HiGHS model, warm-started.
 
@@ -173,7 +176,7 @@ def plan(
 
 def _stability_test(scene: Scene, test: str) -> str | Callable[[list[int], int], tuple[bool, int]]:
     """What the core's `plan` takes for `test`."""
-    if test in ("reuse", "lcp"):
+    if test in ("reuse", "reuse-dantzig", "lcp"):
         return test
     from drystone import statics
 

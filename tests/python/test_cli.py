@@ -67,7 +67,7 @@ def test_plan_prints_the_order(cli: Cli) -> None:
     assert "3 2 1" in ran.out
 
 
-@pytest.mark.parametrize("test", ["reuse", "lcp", "lp", "lp-warm"])
+@pytest.mark.parametrize("test", ["reuse", "reuse-dantzig", "lcp", "lp", "lp-warm"])
 def test_plan_as_json(cli: Cli, test: str) -> None:
     ran = cli("plan", "pyramid:3", "--json", "--test", test)
     answer = json.loads(ran.out)

@@ -39,6 +39,7 @@ class StabilityTest(str, Enum):
     """The stability tests of `plan`."""
 
     reuse = "reuse"
+    reuse_dantzig = "reuse-dantzig"
     lcp = "lcp"
     lp = "lp"
     lp_warm = "lp-warm"

@@ -15,7 +15,8 @@ MARKS = {
     "lp": ("o", "#8a6d3b", "LP, cold (HiGHS)"),
     "lp-warm": ("s", "none", "LP, warm (HiGHS)"),
     "lcp": ("^", "#1f6fb2", "LCP"),
-    "reuse": ("D", "#2c8a57", "LCP + reuse"),
+    "reuse-dantzig": ("v", "#7a4fa3", "LCP + reuse (the paper)"),
+    "reuse": ("D", "#2c8a57", "reuse"),
 }
 
 
