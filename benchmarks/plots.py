@@ -19,7 +19,13 @@ MARKERS = "osD^v<>P"
 
 
 def draw(cases: list[Case], path: Path) -> list[Path]:
-    """One picture for each workload and quantity, as SVG and PNG; returns what was written."""
+    """One picture for each workload and quantity, as SVG and PNG; returns what was written.
+
+    Without two sizes of any family there is nothing to draw.
+    """
+    measured = {case.row.scene for case in cases}
+    if all(len(measured.intersection(scenes)) < 2 for scenes in FAMILIES.values()):
+        return []
     quantities: dict[str, tuple[str, Callable[[Measured], float]]] = {
         "time": ("total time of the solver (s)", lambda r: r.seconds),
         "memory": ("peak memory (MB)", lambda r: r.memory),
@@ -29,6 +35,8 @@ def draw(cases: list[Case], path: Path) -> list[Path]:
     for workload in dict.fromkeys(case.workload for case in cases):
         some = [case for case in cases if case.workload == workload]
         for quantity, (label, value) in quantities.items():
+            if all(math.isnan(value(r)) for case in some for r in case.results.values()):
+                continue
             figure = _figure(some, label, value)
             for ending, metadata in ((".svg", {"Date": None}), (".png", {})):
                 target = path.with_name(f"{path.name}-{workload}-{quantity}{ending}")
