@@ -54,10 +54,10 @@ def test_work_of_adding_in_order(scene: str, friction: float) -> None:
 
 
 @pytest.mark.parametrize("workload", WORKLOADS)
-@pytest.mark.parametrize("friction", [0.0, 0.5])
+@pytest.mark.parametrize("friction", [0.0, 0.7])
 def test_live_programs_agree_with_the_reference(workload: str, friction: float) -> None:
     """Rows and columns put in and deleted in any order leave the right program."""
-    scene = ds.scenes.random_stack(12, friction=friction)
+    scene = ds.scenes.arch(21, friction=friction)
     assembly = Assembly.of(scene)
     steps = WORKLOADS[workload](scene, assembly, ds.plan(scene))
     right = reference.verdicts(assembly, steps)
@@ -69,7 +69,8 @@ def test_live_programs_agree_with_the_reference(workload: str, friction: float) 
 
 
 def test_random_workload_backs_up_and_meets_both_verdicts() -> None:
-    scene = ds.scenes.random_stack(12)
+    """An arch without a scaffold falls long before it is closed."""
+    scene = ds.scenes.arch(21)
     assembly = Assembly.of(scene)
     steps = WORKLOADS["random"](scene, assembly, ds.plan(scene))
     assert any(len(step.removed) > 1 for step in steps.steps)
