@@ -59,11 +59,11 @@ fn close(found: f64, expected: f64, tolerance: f64) {
 /// stone skeleton", 1966, has 0.106). With 41 voussoirs hinges can form at 42 joints only: 0.1073.
 #[test]
 fn an_arch_stands_from_the_thickness_of_milankovitch() {
-    let thinnest = |n: usize, friction| least(0.05, 0.2, 1e-6, |t| stands(&scenes::arch(n, t, friction).unwrap()));
+    let thinnest = |n: usize, friction| least(0.05, 0.2, 1e-5, |t| stands(&scenes::arch(n, t, friction).unwrap()));
     close(thinnest(41, 1.0), 0.1073, 1e-3);
-    close(thinnest(101, 1.0), 0.1075, 1e-3);
+    close(thinnest(61, 1.0), 0.1075, 1e-3);
     // At such a friction sliding decides nothing: more of it changes nothing.
-    close(thinnest(41, 1.0), thinnest(41, 5.0), 2e-6);
+    close(thinnest(41, 1.0), thinnest(41, 5.0), 2e-5);
 }
 
 /// Least friction at which every joint of an arch can hold by itself, wherever its thrust passes. Voussoirs weigh
@@ -87,10 +87,10 @@ fn joint_friction(voussoirs: usize) -> f64 {
 fn a_thick_arch_slides_below_a_friction_of_about_031() {
     close(joint_friction(10_001), 0.309215, 1e-6);
     let limit = |n, thickness| least(0.1, 0.7, 1e-7, |mu| stands(&scenes::arch(n, thickness, mu).unwrap()));
-    for voussoirs in [20, 41, 60] {
+    for voussoirs in [10, 20, 41] {
         close(limit(voussoirs, 0.25), joint_friction(voussoirs), 1e-6);
     }
-    for voussoirs in [41, 101] {
+    for voussoirs in [41, 61] {
         let friction = limit(voussoirs, 0.2);
         assert!((0.309..=0.315).contains(&friction), "{voussoirs} voussoirs: {friction}");
     }
