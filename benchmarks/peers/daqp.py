@@ -5,9 +5,8 @@
 DAQP is a dual active-set method: it moves from one active set to the next by updating an LDL^T
 factor of the active block of G' M^-1 G, so its multipliers solve our contact problem. The
 workspace holds the complete assembly; contacts of absent blocks have no bound, and the active set
-and its factor carry over from question to question. (Setting up a workspace as large as each
-sub-assembly and starting it from the last active set was tried: 4 times slower on col80 for its
-set-up alone, since that transforms a dense matrix.)
+and its factor carry over from question to question. A new workspace of each sub-assembly's own size
+is no way out: its set-up alone, which transforms a dense matrix, took 4 times as long on col80.
 
 Timed: `solve_time`, DAQP's own clock. Changing the bounds is left out.
 """
