@@ -154,6 +154,7 @@ class Plan:
     test_seconds: float
     seconds: float
     records: list[TestRecord]
+    shortcuts: int
     whole: Verdict | None
 
 @final
@@ -197,6 +198,7 @@ def plan(
     node_limit: int | None = None,
     time_limit: float | None = None,
     progress: Callable[[int, int, int], None] | None = None,
+    shortcuts: bool = True,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).

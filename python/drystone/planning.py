@@ -64,6 +64,8 @@ class Plan:
     """Wall time of the whole search."""
     records: tuple[TestRecord, ...]
     """One entry a test, in order."""
+    shortcuts: int
+    """Sub-assemblies known to fall without a test, by a collapse that an earlier test found."""
     whole: Verdict | None
     """The verdict on the complete assembly, which is checked first and counted apart."""
     test: str
@@ -84,6 +86,7 @@ class Plan:
             core.test_seconds,
             core.seconds,
             tuple(TestRecord(r.size, r.pivots, r.seconds, r.stable) for r in core.records),
+            core.shortcuts,
             None if core.whole is None else Verdict._of(core.whole, scene),
             test,
             scene,
@@ -115,6 +118,7 @@ class Plan:
             "falls_next": list(self.falls_next),
             "test": self.test,
             "tests": self.tests,
+            "shortcuts": self.shortcuts,
             "pivots": self.pivots,
             "test_seconds": self.test_seconds,
             "seconds": self.seconds,
@@ -143,6 +147,7 @@ def plan(
     node_limit: int | None = None,
     time_limit: float | None = None,
     progress: Progress | None = None,
+    shortcuts: bool = True,
 ) -> Plan:
     """Search an order of removal in which no intermediate structure collapses.
 
@@ -160,6 +165,11 @@ def plan(
     `node_limit` bounds the tests, `time_limit` the seconds. A limit reached or an interrupt
     (Ctrl-C) is a status of the plan, which then holds the best so far.
 
+    A test of the core that finds a sub-assembly to fall also finds how. With `shortcuts` that
+    motion answers later tests it still applies to, and tells which blocks to take back where none
+    can be added; the order found is the same. Without, every sub-assembly visited is tested, as
+    in the paper.
+
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found
     True
@@ -168,7 +178,14 @@ def plan(
         if limit is not None and not limit >= 0:
             raise ValueError(f"{what} is {limit}: it must be zero or more")
     return Plan._of(
-        _core.plan(scene._core, _stability_test(scene, test), node_limit, time_limit, progress),
+        _core.plan(
+            scene._core,
+            _stability_test(scene, test),
+            node_limit,
+            time_limit,
+            progress,
+            shortcuts,
+        ),
         test,
         scene,
     )

@@ -6,7 +6,10 @@ use crate::{
     formulate::{Assembly, BlockSet, ContactForce},
     scene::Scene,
 };
-use drystone_lcp::{Counts, Settings, Solver, Status, cone::Membership};
+use drystone_lcp::{
+    Counts, Settings, Solver, Status,
+    cone::{ConeSolver, Membership},
+};
 
 /// A block is at rest while its acceleration stays below this share of gravity; turning counts by the speed of the
 /// block's corner furthest from its centroid. Rounding in a stack of some hundred blocks leaves 1e-12; a block that
@@ -58,14 +61,29 @@ fn named_blocks(scene: &Scene, assembly: &Assembly, names: &[String]) -> Result<
     Ok(set)
 }
 
-/// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
-pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
+/// Whether a scene stands, and nothing else.
+///
+/// # Errors
+/// [`SceneError::Overlap`] if blocks overlap.
+pub fn stands(scene: &Scene) -> Result<bool, SceneError> {
+    let assembly = Assembly::new(scene)?;
+    Ok(equilibrium_of(&assembly, &BlockSet::full(assembly.blocks())).0 == Membership::Inside)
+}
+
+/// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports.
+fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
     let mut equilibrium = assembly.equilibrium();
     let mut found = Membership::Inside;
     for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {
         equilibrium.add_rows(&Assembly::equilibrium_rows(block));
         found = equilibrium.solve();
     }
+    (found, equilibrium)
+}
+
+/// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
+pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
+    let (found, equilibrium) = equilibrium_of(assembly, blocks);
     let rows = assembly.rows(blocks);
     if found == Membership::Inside {
         let (counts, residual) = (equilibrium.counts(), equilibrium.residual());
@@ -114,7 +132,17 @@ fn verdict(
 
 /// Whether every block of a sub-assembly is at rest under the solver's forces.
 pub(crate) fn all_at_rest(assembly: &Assembly, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> bool {
-    blocks.iter().all(|block| at_rest(assembly, block, &assembly.acceleration(block, &f)))
+    moving_blocks(assembly, blocks, f).next().is_none()
+}
+
+/// The blocks of a sub-assembly that are not at rest under the solver's forces, with their accelerations.
+pub(crate) fn moving_blocks<'a>(
+    assembly: &'a Assembly,
+    blocks: &'a BlockSet,
+    f: impl Fn(usize) -> f64 + 'a,
+) -> impl Iterator<Item = (usize, [f64; 3])> + 'a {
+    let accelerated = blocks.iter().map(move |block| (block, assembly.acceleration(block, &f)));
+    accelerated.filter(move |(block, acceleration)| !at_rest(assembly, *block, acceleration))
 }
 
 fn at_rest(assembly: &Assembly, block: usize, acceleration: &[f64; 3]) -> bool {

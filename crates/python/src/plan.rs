@@ -34,6 +34,7 @@ pub struct Plan {
     test_seconds: f64,
     seconds: f64,
     records: Vec<Py<TestRecord>>,
+    shortcuts: usize,
     whole: Option<Py<Verdict>>,
 }
 
@@ -122,7 +123,7 @@ impl Monitor for Watch {
 }
 
 #[pyfunction]
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None))]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -130,10 +131,11 @@ pub fn plan(
     node_limit: Option<usize>,
     time_limit: Option<f64>,
     progress: Option<Py<PyAny>>,
+    shortcuts: bool,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
-    let limits = Limits { tests: node_limit, time };
+    let limits = Limits { tests: node_limit, time, shortcuts };
     let mut watch = Watch { progress, last: Instant::now(), error: None };
     let scene = &scene.core;
     let planned = if test.is_callable() {
@@ -178,6 +180,7 @@ fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyRe
         test_seconds: plan.test_time().as_secs_f64(),
         seconds: plan.total.as_secs_f64(),
         records: plan.records.iter().map(record).collect::<PyResult<_>>()?,
+        shortcuts: plan.shortcuts,
         whole: Some(Py::new(py, Verdict::new(py, scene, &plan.whole, plan.whole_time)?)?),
     })
 }

@@ -71,7 +71,7 @@ def measure(announce: Callable[[str], None] = lambda what: None) -> list[Row]:
         plans = {}
         for test in COLUMNS:
             announce(f"{example.name} ({test})")
-            plans[test] = plan(scene, test)
+            plans[test] = plan(scene, test, shortcuts=False)
         rows.append(Row(example, plans))
     return rows
 

@@ -34,6 +34,11 @@ impl BlockSet {
         self.words[block / 64] &= !(1 << (block % 64));
     }
 
+    /// Adds every block of another set.
+    pub fn union_with(&mut self, other: &Self) {
+        self.words.iter_mut().zip(&other.words).for_each(|(word, other)| *word |= other);
+    }
+
     /// Number of blocks in the set.
     pub fn len(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()

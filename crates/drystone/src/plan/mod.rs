@@ -4,10 +4,12 @@
 //! nodes from the bare supports to the whole, read backwards, is a stable disassembly order. The search is
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
+mod collapse;
 mod graph;
 mod search;
 mod stability;
 
+pub use collapse::Collapse;
 pub use graph::{GraphNode, disassembly_graph};
 pub use search::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord, plan, plan_with};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

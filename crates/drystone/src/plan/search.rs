@@ -1,5 +1,6 @@
 //! Depth-first search of the disassembly graph.
 
+use super::collapse::KnownCollapse;
 use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};
 use crate::{
     check::{Verdict, check_blocks},
@@ -7,17 +8,26 @@ use crate::{
     scene::Scene,
 };
 use std::{
-    collections::HashSet,
+    collections::HashMap,
     time::{Duration, Instant},
 };
 
-/// Budgets of a search; without them it goes on to the end.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+/// Budgets of a search, without which it goes on to the end, and how it goes about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Most stability tests.
     pub tests: Option<usize>,
     /// Most wall time.
     pub time: Option<Duration>,
+    /// Answer without a test what the collapse found by an earlier test already answers (Lemmas 1 and 2 of
+    /// [`Collapse`]). The order found is the same; the paper's planner does without.
+    pub shortcuts: bool,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { tests: None, time: None, shortcuts: true }
+    }
 }
 
 /// How a search ended.
@@ -103,6 +113,8 @@ pub struct Plan {
     pub falls_next: Vec<usize>,
     /// Every stability test.
     pub records: Vec<TestRecord>,
+    /// Sub-assemblies known to fall without a test, by a collapse found before.
+    pub shortcuts: usize,
     /// Time to analyse the complete assembly for the tests (counted as test time).
     pub setup: Duration,
     /// Time of everything, contacts included.
@@ -168,6 +180,7 @@ pub fn plan_with(
         reached: bodies(&search.best),
         falls_next: if exhausted { bodies(&search.blocked(&search.best)) } else { Vec::new() },
         records: search.records,
+        shortcuts: search.shortcuts,
         setup: Duration::ZERO,
         total: start.elapsed(),
         whole,
@@ -175,9 +188,20 @@ pub fn plan_with(
     })
 }
 
-/// A sub-assembly on the current path: the block that made it, and where its list of candidates has got to.
+/// A sub-assembly on the current path.
 struct Level {
+    /// Where its list of candidates has got to.
     next_candidate: usize,
+    /// Its blocks to blame for the candidates that failed so far: the set of Lemma 2.
+    conflict: BlockSet,
+}
+
+/// What is known of a sub-assembly visited before.
+enum Visited {
+    /// It falls, or its search is under way.
+    Falls,
+    /// It stands, and cannot be grown to the whole because of these blocks.
+    Trapped(BlockSet),
 }
 
 struct Search<'a> {
@@ -188,12 +212,14 @@ struct Search<'a> {
     upward: Vec<usize>,
     neighbours: Vec<Vec<usize>>,
     on_support: Vec<bool>,
-    /// Sub-assemblies tested before, standing or not.
-    visited: HashSet<BlockSet>,
+    visited: HashMap<BlockSet, Visited>,
+    /// The last collapse found with a block on top.
+    collapses: Vec<Option<KnownCollapse>>,
     current: BlockSet,
     placed: Vec<usize>,
     best: Vec<usize>,
     records: Vec<TestRecord>,
+    shortcuts: usize,
 }
 
 impl<'a> Search<'a> {
@@ -222,7 +248,9 @@ impl<'a> Search<'a> {
             upward: assembly.upward(),
             neighbours,
             on_support,
-            visited: HashSet::new(),
+            visited: HashMap::new(),
+            collapses: vec![None; blocks],
+            shortcuts: 0,
             current: BlockSet::empty(blocks),
             placed: Vec::new(),
             best: Vec::new(),
@@ -233,46 +261,96 @@ impl<'a> Search<'a> {
     /// Grows the current sub-assembly by the first candidate that stands, and steps back where none does.
     fn run(&mut self, test: &mut dyn StabilityTest, monitor: &mut dyn Monitor) -> Result<Outcome, PlanError> {
         let blocks = self.assembly.blocks();
-        let mut path = vec![Level { next_candidate: 0 }];
+        let mut path = vec![self.new_level()];
         while let Some(level) = path.last_mut() {
             if self.placed.len() == blocks {
                 return Ok(Outcome::Found);
             }
             let Some(added) = self.next_candidate(level) else {
-                path.pop();
-                if let Some(last) = self.placed.pop() {
-                    self.current.remove(last);
-                    test.backtrack();
-                }
+                self.step_back(&mut path, test);
                 continue;
             };
             self.current.insert(added);
-            let stands = if self.placed.len() + 1 == blocks {
-                true // the complete assembly, checked first
-            } else if !self.visited.insert(self.current.clone()) {
-                false // tested before: its answer, and all that follows from it, is known
-            } else {
-                let progress = Progress { tests: self.records.len(), placed: self.placed.len(), blocks };
-                if let Some(outcome) = self.spent(monitor, progress) {
-                    return Ok(outcome);
-                }
-                let stands = self.record(test, added)?;
-                if stands {
-                    test.descend();
-                }
-                stands
-            };
+            let last = self.placed.len() + 1 == blocks; // the complete assembly, checked first
+            let stands = last
+                || !self.known_to_fail(added, &mut level.conflict) && {
+                    let progress = Progress { tests: self.records.len(), placed: self.placed.len(), blocks };
+                    if let Some(outcome) = self.spent(monitor, progress) {
+                        return Ok(outcome);
+                    }
+                    self.stands(test, added, &mut level.conflict)?
+                };
             if stands {
                 self.placed.push(added);
                 if self.placed.len() > self.best.len() {
                     self.best.clone_from(&self.placed);
                 }
-                path.push(Level { next_candidate: 0 });
+                path.push(self.new_level());
             } else {
                 self.current.remove(added);
             }
         }
         Ok(Outcome::NoOrder)
+    }
+
+    fn new_level(&self) -> Level {
+        Level { next_candidate: 0, conflict: BlockSet::empty(self.assembly.blocks()) }
+    }
+
+    /// Whether the current sub-assembly, which holds `added`, was found to fail before: tested, trapped, or falling by
+    /// a known collapse. Who is to blame goes into the conflict of the sub-assembly without it.
+    fn known_to_fail(&mut self, added: usize, conflict: &mut BlockSet) -> bool {
+        if let Some(known) = self.collapses[added].as_ref().filter(|known| known.holds_for(&self.current)) {
+            known.blame(&self.current, conflict);
+            self.shortcuts += 1;
+            return true;
+        }
+        match self.visited.get(&self.current) {
+            None => return false,
+            Some(Visited::Trapped(trap)) => conflict.union_with(trap),
+            Some(Visited::Falls) => conflict.union_with(&self.current),
+        }
+        true
+    }
+
+    /// Tests the current sub-assembly, which holds `added`.
+    fn stands(
+        &mut self,
+        test: &mut dyn StabilityTest,
+        added: usize,
+        conflict: &mut BlockSet,
+    ) -> Result<bool, PlanError> {
+        self.visited.insert(self.current.clone(), Visited::Falls);
+        if self.record(test, added)? {
+            test.descend();
+            return Ok(true);
+        }
+        match self.limits.shortcuts.then(|| test.collapse()).flatten() {
+            Some(collapse) => {
+                let known = KnownCollapse::new(collapse, &self.current, &self.neighbours);
+                known.blame(&self.current, conflict);
+                self.collapses[added] = Some(known);
+            }
+            None => conflict.union_with(&self.current),
+        }
+        Ok(false)
+    }
+
+    /// No candidate is left: takes blocks off until one that is to blame is gone (Lemma 2).
+    fn step_back(&mut self, path: &mut Vec<Level>, test: &mut dyn StabilityTest) {
+        while let Some(Level { conflict, .. }) = path.pop()
+            && let Some(last) = self.placed.pop()
+        {
+            self.visited.insert(self.current.clone(), Visited::Trapped(conflict.clone()));
+            self.current.remove(last);
+            test.backtrack();
+            let Some(parent) = path.last_mut() else { return };
+            if conflict.contains(last) {
+                parent.conflict.union_with(&conflict);
+                return;
+            }
+            parent.conflict = conflict; // without `last` it is trapped just the same
+        }
     }
 
     fn record(&mut self, test: &mut dyn StabilityTest, added: usize) -> Result<bool, PlanError> {

@@ -1,7 +1,8 @@
 //! The stability tests of the planner: does this sub-assembly stand?
 
+use super::collapse::Collapse;
 use crate::{
-    check::all_at_rest,
+    check::{all_at_rest, moving_blocks},
     error::SceneError,
     formulate::{Assembly, BlockSet},
 };
@@ -48,6 +49,11 @@ pub trait StabilityTest {
     /// [`PlanError`] if no answer can be given.
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError>;
 
+    /// The collapse motion of the sub-assembly just tested, which falls, if this test finds one.
+    fn collapse(&self) -> Option<Collapse> {
+        None
+    }
+
     /// The sub-assembly just tested, which stands, becomes the current one.
     fn descend(&mut self) {}
 
@@ -83,17 +89,27 @@ fn solve(assembly: &Assembly, solver: &mut Solver, blocks: &BlockSet) -> Result<
     }
 }
 
+/// The accelerations v of a fall are a collapse motion: `G' v = w >= 0` and `F' v = v' M v > 0`.
+fn collapse_of(assembly: &Assembly, solver: &Solver, blocks: &BlockSet) -> Collapse {
+    let work = |(block, acceleration): (usize, [f64; 3])| {
+        let load = assembly.applied(block);
+        (block, (0..3).map(|k| load[k] * acceleration[k]).sum())
+    };
+    Collapse::new(moving_blocks(assembly, blocks, |j| solver.z(j)).map(work).collect())
+}
+
 /// Every test solves its sub-assembly from scratch.
 #[derive(Debug)]
 pub struct FromScratch<'a> {
     assembly: &'a Assembly,
     solver: Solver,
+    tested: BlockSet,
 }
 
 impl<'a> FromScratch<'a> {
     /// Analyses the complete assembly.
     pub fn new(assembly: &'a Assembly) -> Self {
-        Self { assembly, solver: solver_for(assembly) }
+        Self { assembly, solver: solver_for(assembly), tested: BlockSet::default() }
     }
 }
 
@@ -101,7 +117,12 @@ impl StabilityTest for FromScratch<'_> {
     fn test(&mut self, blocks: &BlockSet, _added: usize) -> Result<TestOutcome, PlanError> {
         self.solver.clear();
         self.solver.add_rows(&self.assembly.rows(blocks));
+        self.tested.clone_from(blocks);
         solve(self.assembly, &mut self.solver, blocks)
+    }
+
+    fn collapse(&self) -> Option<Collapse> {
+        Some(collapse_of(self.assembly, &self.solver, &self.tested))
     }
 }
 
@@ -114,6 +135,8 @@ impl StabilityTest for FromScratch<'_> {
 #[derive(Debug)]
 pub struct Reuse {
     solver: ConeSolver,
+    /// Applied wrench of every block.
+    loads: Vec<[f64; 3]>,
     /// States of the current sub-assembly and its ancestors, the current one last.
     path: Vec<Mark>,
     at_current: bool,
@@ -123,7 +146,8 @@ impl Reuse {
     /// Takes the generators of the complete assembly; the current sub-assembly is empty.
     pub fn new(assembly: &Assembly) -> Self {
         let mut solver = assembly.equilibrium();
-        Self { path: vec![solver.mark()], solver, at_current: true }
+        let loads = (0..assembly.blocks()).map(|block| assembly.applied(block)).collect();
+        Self { loads, path: vec![solver.mark()], solver, at_current: true }
     }
 
     /// The solver, for its counts.
@@ -153,6 +177,20 @@ impl StabilityTest for Reuse {
         Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
     }
 
+    /// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y.
+    fn collapse(&self) -> Option<Collapse> {
+        let mut moving: Vec<(usize, f64)> = Vec::new();
+        for (row, y) in self.solver.certificate() {
+            let (block, axis) = (row / 3, row % 3);
+            let work = -y * self.loads[block][axis];
+            match moving.last_mut().filter(|last| last.0 == block) {
+                Some(last) => last.1 += work,
+                None => moving.push((block, work)),
+            }
+        }
+        Some(Collapse::new(moving))
+    }
+
     fn descend(&mut self) {
         self.path.push(self.solver.mark());
         self.at_current = true;
@@ -173,13 +211,14 @@ pub struct ReuseDantzig<'a> {
     /// States of the current sub-assembly and its ancestors, the current one last.
     path: Vec<Snapshot>,
     at_current: bool,
+    tested: BlockSet,
 }
 
 impl<'a> ReuseDantzig<'a> {
     /// Analyses the complete assembly; the current sub-assembly is empty.
     pub fn new(assembly: &'a Assembly) -> Self {
         let solver = solver_for(assembly);
-        Self { assembly, path: vec![solver.snapshot()], solver, at_current: true }
+        Self { assembly, path: vec![solver.snapshot()], solver, at_current: true, tested: BlockSet::default() }
     }
 }
 
@@ -192,7 +231,12 @@ impl StabilityTest for ReuseDantzig<'_> {
         }
         self.at_current = false;
         self.solver.add_rows(&self.assembly.rows_added(blocks, added));
+        self.tested.clone_from(blocks);
         solve(self.assembly, &mut self.solver, blocks)
+    }
+
+    fn collapse(&self) -> Option<Collapse> {
+        Some(collapse_of(self.assembly, &self.solver, &self.tested))
     }
 
     fn descend(&mut self) {

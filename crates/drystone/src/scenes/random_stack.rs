@@ -2,7 +2,7 @@
 
 use super::builder::Builder;
 use super::entry::{SceneEntry, friction, integer, seed};
-use crate::check::check;
+use crate::check::stands;
 use crate::error::SceneError;
 use crate::scene::Scene;
 use rand::{Rng, SeedableRng};
@@ -22,6 +22,9 @@ const MARGIN: i64 = 32;
 
 /// Places looked at for every block drawn; the lowest of the wanted kind is taken.
 const PLACES: usize = 8;
+
+/// Blocks drawn in search of one that needs a counterweight, before any that stands will do.
+const SEARCH: usize = 8;
 
 /// Blocks drawn for one place in the stack before giving up.
 const ATTEMPTS: usize = 500;
@@ -44,8 +47,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
 /// not tell it: they go up level by level, whereas some overhanging block bears its load only once
 /// its counterweight lies.
 pub fn random_stack(blocks: usize, seed: u64, friction: f64) -> Result<Scene, SceneError> {
-    let stands = |scene: &Scene| check(scene, None).is_ok_and(|verdict| verdict.stable);
-    random_stack_where(blocks, seed, friction, stands)
+    random_stack_where(blocks, seed, friction, |scene| stands(scene).is_ok_and(|stands| stands))
 }
 
 /// The same with another rule: `accept` sees the frictionless stack with the new block on it (the
@@ -65,11 +67,15 @@ pub fn random_stack_where(
     lay_ground(&mut trial, ground)?;
     while placed.len() < blocks {
         let mut found = false;
-        for _ in 0..ATTEMPTS {
+        let seek_counterweighted = random.random_range(0..2) == 0;
+        for attempt in 0..ATTEMPTS {
             let Some(block) = draw(&mut random, &skyline, ground) else { continue };
             let mut next = trial.clone();
             block.add_to(&mut next)?;
-            if accept(next.scene()) {
+            let stands = accept(next.scene());
+            let wanted =
+                !seek_counterweighted || attempt >= SEARCH || stands && !accept(&lower_part(&placed, &block, ground)?);
+            if stands && wanted {
                 (trial, found) = (next, true);
                 skyline.raise(&block);
                 placed.push(block);
@@ -85,6 +91,16 @@ pub fn random_stack_where(
     let mut builder = Builder::new(friction)?;
     lay_ground(&mut builder, ground)?;
     placed.iter().try_for_each(|block| block.add_to(&mut builder))?;
+    Ok(builder.finish())
+}
+
+/// The block on what lies lower than it: if this falls, the block needs a counterweight that lies higher.
+fn lower_part(placed: &[Placed], block: &Placed, ground: i64) -> Result<Scene, SceneError> {
+    let height = |b: &Placed| 2 * b.bottom + b.height;
+    let mut builder = Builder::new(0.0)?;
+    lay_ground(&mut builder, ground)?;
+    let lower = placed.iter().filter(|other| height(other) < height(block));
+    lower.chain([block]).try_for_each(|other| other.add_to(&mut builder))?;
     Ok(builder.finish())
 }
 
