@@ -2,8 +2,8 @@
 
 use drystone::formulate::{Assembly, BlockSet, Generator};
 use drystone::plan::{
-    FromScratch, Limits, Monitor, Outcome, Plan, Progress, Quiet, Reuse, StabilityTest, Test, TestOutcome,
-    disassembly_graph, plan,
+    FromScratch, Limits, Monitor, Outcome, Plan, Progress, Quiet, Reuse, ReuseDantzig, StabilityTest, Test,
+    TestOutcome, disassembly_graph, plan,
 };
 use drystone::{BodyOptions, Scene, Verdict, check::check_blocks, scenes};
 use drystone_lcp::{Settings, Solver, Start, Status};
@@ -12,10 +12,11 @@ use rand_pcg::Pcg64;
 use std::collections::HashSet;
 use std::time::Duration;
 
-const NO_LIMITS: Limits = Limits { tests: None, time: None };
+/// This crate's stability tests.
+const TESTS: [Test; 3] = [Test::Lcp, Test::Reuse, Test::ReuseDantzig];
 
 fn planned(scene: &Scene, test: Test) -> Plan {
-    plan(scene, test, NO_LIMITS, &mut Quiet).unwrap()
+    plan(scene, test, Limits::default(), &mut Quiet).unwrap()
 }
 
 fn set_of(assembly: &Assembly, blocks: impl IntoIterator<Item = usize>) -> BlockSet {
@@ -74,9 +75,11 @@ fn columns_and_the_pyramid_take_the_pivots_of_the_paper() {
     for (scene, from_scratch, reuse) in structures {
         let lcp = planned(&scene, Test::Lcp);
         assert_eq!((lcp.outcome, lcp.pivots()), (Outcome::Found, from_scratch));
-        let reusing = planned(&scene, Test::Reuse);
-        assert_eq!((reusing.outcome, &reusing.order), (Outcome::Found, &lcp.order));
-        assert!(reusing.pivots() <= reuse, "{} pivots, the paper has {reuse}", reusing.pivots());
+        for test in [Test::Reuse, Test::ReuseDantzig] {
+            let plan = planned(&scene, test);
+            assert_eq!((plan.outcome, &plan.order), (Outcome::Found, &lcp.order));
+            assert!(plan.pivots() <= reuse, "{test:?}: {} pivots, the paper has {reuse}", plan.pivots());
+        }
         assert_eq!(lcp.records.len(), lcp.order.len() - 1, "every proper sub-assembly on the way, once");
     }
 }
@@ -85,10 +88,13 @@ fn columns_and_the_pyramid_take_the_pivots_of_the_paper() {
 #[test]
 fn reuse_saves_thirty_fold_on_a_random_structure() {
     let scene = scenes::random_stack(84, 1, 0.0).unwrap();
-    let (lcp, reuse) = (planned(&scene, Test::Lcp), planned(&scene, Test::Reuse));
-    assert_eq!((lcp.outcome, &lcp.order), (Outcome::Found, &reuse.order));
-    let [lcp, reuse] = [lcp.pivots(), reuse.pivots()];
-    assert!(lcp >= 30 * reuse, "{lcp} against {reuse}");
+    let lcp = planned(&scene, Test::Lcp);
+    for test in [Test::Reuse, Test::ReuseDantzig] {
+        let plan = planned(&scene, test);
+        assert_eq!((plan.outcome, &plan.order), (Outcome::Found, &lcp.order));
+        let [lcp, reuse] = [lcp.pivots(), plan.pivots()];
+        assert!(lcp >= 30 * reuse, "{test:?}: {lcp} against {reuse}");
+    }
 }
 
 /// A scene of only some of the movable bodies, and all fixed ones.
@@ -154,21 +160,27 @@ fn close(a: f64, b: f64, size: f64) {
     assert!((a - b).abs() <= 1e-13 * size.max(1.0), "{a} and {b}");
 }
 
-/// Drives both tests along one walk through the disassembly graph, as the planner may: any block that is not there is
+/// Drives all tests along one walk through the disassembly graph, as the planner may: any block that is not there is
 /// tested; on a standing sub-assembly the walk goes on or not; and at any time it steps back.
 struct Walk<'a> {
     assembly: &'a Assembly,
-    reuse: Reuse,
-    scratch: FromScratch<'a>,
+    /// From scratch, and both ways of reuse.
+    tests: [Box<dyn StabilityTest + 'a>; 3],
     placed: Vec<usize>,
-    pivots: [usize; 2],
+    /// Of each test.
+    pivots: [usize; 3],
+    /// Sub-assemblies that fell and that stood.
     seen: [usize; 2],
 }
 
 impl<'a> Walk<'a> {
     fn new(assembly: &'a Assembly) -> Self {
-        let (reuse, scratch) = (Reuse::new(assembly), FromScratch::new(assembly));
-        Self { assembly, reuse, scratch, placed: Vec::new(), pivots: [0; 2], seen: [0; 2] }
+        let tests: [Box<dyn StabilityTest + 'a>; 3] = [
+            Box::new(FromScratch::new(assembly)),
+            Box::new(Reuse::new(assembly)),
+            Box::new(ReuseDantzig::new(assembly)),
+        ];
+        Self { assembly, tests, placed: Vec::new(), pivots: [0; 3], seen: [0; 2] }
     }
 
     fn step(&mut self, random: &mut Pcg64) {
@@ -176,31 +188,28 @@ impl<'a> Walk<'a> {
         if missing.is_empty() || !self.placed.is_empty() && random.random_range(0..4) == 0 {
             for _ in 0..random.random_range(1..=self.placed.len()) {
                 self.placed.pop();
-                self.reuse.backtrack();
-                self.scratch.backtrack();
+                self.tests.iter_mut().for_each(|test| test.backtrack());
             }
             return;
         }
         let added = missing[random.random_range(0..missing.len())];
-        let outcome = self.test(added);
-        if outcome.stands && random.random_range(0..5) > 0 {
+        if self.stands(added) && random.random_range(0..5) > 0 {
             self.placed.push(added);
-            self.reuse.descend();
-            self.scratch.descend();
+            self.tests.iter_mut().for_each(|test| test.descend());
         }
     }
 
-    fn test(&mut self, added: usize) -> TestOutcome {
+    fn stands(&mut self, added: usize) -> bool {
         let set = set_of(self.assembly, self.placed.iter().copied().chain([added]));
-        let reuse = self.reuse.test(&set, added).unwrap();
-        let scratch = self.scratch.test(&set, added).unwrap();
         let fresh = check_blocks(self.assembly, &set);
         assert_eq!(fresh.status, Status::Solved);
-        assert_eq!((reuse.stands, scratch.stands), (fresh.stable, fresh.stable), "{set:?}");
-        self.pivots[0] += reuse.pivots;
-        self.pivots[1] += scratch.pivots;
-        self.seen[usize::from(reuse.stands)] += 1;
-        reuse
+        for (test, pivots) in self.tests.iter_mut().zip(&mut self.pivots) {
+            let outcome = test.test(&set, added).unwrap();
+            assert_eq!(outcome.stands, fresh.stable, "{set:?}");
+            *pivots += outcome.pivots;
+        }
+        self.seen[usize::from(fresh.stable)] += 1;
+        fresh.stable
     }
 }
 
@@ -214,8 +223,8 @@ fn reuse_answers_as_a_fresh_solve_on_every_walk() {
             walk.step(&mut random);
         }
         assert!(walk.seen.iter().all(|&count| count > 10), "falling and standing: {:?}", walk.seen);
-        let [reuse, scratch] = walk.pivots;
-        assert!(reuse < scratch, "{reuse} pivots with reuse, {scratch} without");
+        let [scratch, reuse, dantzig] = walk.pivots;
+        assert!(reuse.max(dantzig) < scratch, "{reuse} and {dantzig} pivots with reuse, {scratch} without");
     }
 }
 
@@ -295,7 +304,7 @@ fn orders_and_dead_ends_are_true() {
         let reachable = reachable_by_brute_force(scene);
         let largest = reachable.iter().map(Vec::len).max().unwrap();
         let blocks = scene.bodies().iter().filter(|body| !body.fixed).count();
-        for test in [Test::Lcp, Test::Reuse] {
+        for test in TESTS {
             let plan = planned(scene, test);
             ends.insert(plan.outcome);
             assert_eq!(plan.outcome == Outcome::Found, largest == blocks);
@@ -348,7 +357,7 @@ fn verify(scene: &Scene, plan: &Plan) {
 
 #[test]
 fn no_order_says_how_far_one_gets_and_what_falls_next() {
-    for test in [Test::Lcp, Test::Reuse] {
+    for test in TESTS {
         let scene = orderless(0);
         let plan = planned(&scene, test);
         assert!(plan.whole.stable);
@@ -377,14 +386,14 @@ fn nothing_to_move_is_a_plan_of_nothing() {
 #[test]
 fn a_spent_budget_hands_back_the_best_so_far() {
     let scene = orderless(8);
-    let tests = Limits { tests: Some(5), time: None };
+    let tests = Limits { tests: Some(5), ..Limits::default() };
     let plan = plan(&scene, Test::Reuse, tests, &mut Quiet).unwrap();
     assert_eq!((plan.outcome, plan.records.len()), (Outcome::TestLimit, 5));
     let standing = plan.records.iter().filter(|record| record.outcome.stands).map(|record| record.size).max();
     assert_eq!(Some(plan.reached.len()), standing);
     assert!(plan.order.is_empty() && plan.falls_next.is_empty());
 
-    let time = Limits { tests: None, time: Some(Duration::ZERO) };
+    let time = Limits { time: Some(Duration::ZERO), ..Limits::default() };
     let plan = drystone::plan::plan(&scene, Test::Reuse, time, &mut Quiet).unwrap();
     assert_eq!((plan.outcome, plan.records.len()), (Outcome::TimeLimit, 0));
 }
@@ -405,7 +414,7 @@ impl Monitor for Stop {
 #[test]
 fn a_monitor_is_told_before_every_test_and_can_stop_the_search() {
     let mut stop = Stop { after: 7, told: Vec::new() };
-    let plan = plan(&orderless(8), Test::Reuse, NO_LIMITS, &mut stop).unwrap();
+    let plan = plan(&orderless(8), Test::Reuse, Limits::default(), &mut stop).unwrap();
     assert_eq!((plan.outcome, plan.records.len()), (Outcome::Interrupted, 7));
     assert!(!plan.reached.is_empty() && plan.order.is_empty());
     for (k, (told, record)) in stop.told.iter().zip(&plan.records).enumerate() {
@@ -425,7 +434,7 @@ fn timeless(plan: &Plan) -> impl PartialEq + std::fmt::Debug + '_ {
 #[test]
 fn the_same_scene_gives_the_same_plan_to_the_bit() {
     for scene in varied() {
-        for test in [Test::Lcp, Test::Reuse] {
+        for test in TESTS {
             let [first, again] = [planned(&scene, test), planned(&scene, test)];
             assert_eq!(timeless(&first), timeless(&again));
         }
