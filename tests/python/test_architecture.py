@@ -1,0 +1,95 @@
+"""ARCHITECTURE.md and docs/notation.md say what is there."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import drystone as ds
+from conftest import ROOT
+from drystone import _core
+
+PAGES = ["ARCHITECTURE.md", "docs/notation.md"]
+
+
+def _code(page: str) -> set[str]:
+    return set(re.findall(r"`([^`\n]+)`", (ROOT / page).read_text()))
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_every_file_named_exists(page: str) -> None:
+    text = (ROOT / page).read_text()
+    for link in re.findall(r"\]\(([^)#]+)\)", text):
+        assert ((ROOT / page).parent / link).is_file(), link
+    paths = {code for code in _code(page) if "/" in code and " " not in code}
+    for path in paths:
+        assert (ROOT / path).exists() or (ROOT / "crates/drystone/src" / path).exists(), path
+    if page == "ARCHITECTURE.md":
+        assert len(paths) > 30
+
+
+def test_the_files_named_hold_the_types_named() -> None:
+    """What a row of the first table says is made is defined or returned in one of its files."""
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    rows = re.findall(r"^\| ([a-z ]+) \|([^|]*)\|[^|]*\|([^|]*)\|$", text, re.MULTILINE)
+    assert len(rows) > 10
+    for step, made, files in rows:
+        if step in ("step", "show"):
+            continue
+        texts = "".join((ROOT / path).read_text() for path in re.findall(r"`([^`]+/[^`]+)`", files))
+        for name in re.findall(r"`(?:lcp\.)?([A-Z]\w+)`", made):
+            assert re.search(rf"\b{name}\b", texts), f"{step}: {name}"
+
+
+def _sources(*folders: str) -> list[Path]:
+    return [path for folder in folders for path in sorted((ROOT / folder).rglob("*.rs"))]
+
+
+def test_who_may_know_whom() -> None:
+    for path in _sources("crates/lcp/src"):
+        assert not re.search(r"\bdrystone::", path.read_text()), path
+    physics = "crates/drystone/src/"
+    for path in _sources(physics + "geometry", physics + "contact", physics + "io"):
+        assert "drystone_lcp" not in path.read_text(), path
+    for path in _sources("crates/lcp/src/pivot"):
+        assert not re.search(r"\b(Dense|Sparse)Factor\b", path.read_text()), path
+
+
+@pytest.fixture
+def slope() -> ds.Scene:
+    return ds.scenes.slope(20, friction=0.5, width=2)
+
+
+def test_signs_of_contacts_and_forces(slope: ds.Scene) -> None:
+    """The plane is the first body: its normal points up into the block, its tangent downhill."""
+    angle = np.radians(20)
+    verdict = ds.check(slope)
+    assert verdict.stable
+    for force in verdict.forces:
+        assert (force.a, force.b) == ("plane", "1")
+        normal = np.array([-np.sin(angle), np.cos(angle)])
+        assert force.normal == pytest.approx(normal)
+        assert force.normal_force >= 0
+    # The plane's friction holds the block back, uphill: against the normal turned to the left.
+    along = sum(force.tangential_force for force in verdict.forces)
+    assert along == pytest.approx(-slope.body("1").mass * 9.81 * np.sin(angle))
+
+
+def test_columns_of_the_generators(slope: ds.Scene) -> None:
+    """Two unit edges a contact, n + mu t first, with their moment about the centroid."""
+    g = _core.generators(slope._core)
+    columns = g.data.reshape(-1, 3)
+    assert list(g.indices) == [0, 1, 2] * len(columns)
+    for j, column in enumerate(columns):
+        contact = slope.contacts[g.contact[j]]
+        n = np.array(contact.normal)
+        t = np.array([-n[1], n[0]])
+        d = (n + (0.5, -0.5)[j % 2] * t) / np.sqrt(1.25)
+        r = np.array(contact.point) - slope.body("1").centroid
+        assert column == pytest.approx([*d, r[0] * d[1] - r[1] * d[0]])
+    mass = slope.body("1").mass
+    assert g.applied == pytest.approx([0, -9.81 * mass, 0])
+    assert 1 / g.inverse_mass == pytest.approx([mass, mass, slope.body("1").inertia])
