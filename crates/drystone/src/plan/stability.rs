@@ -2,7 +2,7 @@
 
 use super::collapse::Collapse;
 use crate::{
-    check::{all_at_rest, moving_blocks},
+    check::{moving_blocks, stands_under},
     error::SceneError,
     formulate::{Assembly, BlockSet},
 };
@@ -82,7 +82,7 @@ fn solve(assembly: &Assembly, solver: &mut Solver, blocks: &BlockSet) -> Result<
     let no_answer = |reason: String| PlanError::NoAnswer { blocks: blocks.len(), reason };
     match solver.solve().map_err(|error| no_answer(error.to_string()))? {
         Status::Solved => Ok(TestOutcome {
-            stands: all_at_rest(assembly, blocks, |j| solver.z(j)),
+            stands: stands_under(assembly, blocks, |j| solver.z(j)),
             pivots: solver.counts().pivots - before,
         }),
         status => Err(no_answer(format!("{} (residual {:.1e})", status.name(), solver.residual()))),

@@ -48,6 +48,15 @@ pub(super) struct BasisFactor {
     work: SparseVector,
 }
 
+/// What a replacement says about its accuracy.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Replacement {
+    /// New pivot over old one: equals the entry of `B^-1 a` at the position, by another route.
+    pub rate: f64,
+    /// Largest factor of the row operation: errors grow by it.
+    pub growth: f64,
+}
+
 /// A replacement whose pivot is at or below this (columns have a largest entry of one) would make the basis singular.
 const SINGULAR: f64 = 1e-11;
 
@@ -128,9 +137,8 @@ impl BasisFactor {
 
     /// Replaces the column at a position by the one with this spike.
     ///
-    /// Returns the new pivot, or None (and no change) if the basis would become singular. The pivot should equal the
-    /// old one times the entry of `B^-1 a` at the position: the difference measures lost accuracy.
-    pub fn replace(&mut self, position: u32, spike: &SparseVector) -> Option<f64> {
+    /// None (and no change) if the basis would become singular.
+    pub fn replace(&mut self, position: u32, spike: &SparseVector) -> Option<Replacement> {
         let p = position as usize;
         let terms = self.eliminate_row(position);
         let diagonal = spike.get(position) - terms.iter().map(|&(q, r)| r * spike.get(q)).sum::<f64>();
@@ -151,6 +159,7 @@ impl BasisFactor {
             self.rows[i as usize].push((position, value));
         }
         let operation = !terms.is_empty();
+        let growth = terms.iter().fold(0.0_f64, |growth, (_, factor)| growth.max(factor.abs()));
         if operation {
             let id = self.operations.len() as u32;
             terms.iter().for_each(|&(row, _)| self.readers[row as usize].push(id));
@@ -159,7 +168,7 @@ impl BasisFactor {
         }
         let old_diagonal = std::mem::replace(&mut self.diagonal[p], diagonal);
         self.undo.push(Undo { position, column: old_column, row: old_row, diagonal: old_diagonal, operation });
-        Some(diagonal)
+        Some(Replacement { rate: diagonal / old_diagonal, growth })
     }
 
     /// The combination r of other rows of `U` with `row p - sum r_q row q = 0` right of the diagonal.

@@ -85,6 +85,8 @@ pub struct ConeSolver {
     last_mark: Option<Mark>,
     residual: f64,
     counts: Counts,
+    /// The last pivots showed that digits were lost.
+    shaky: bool,
 }
 
 const OUT: u32 = u32::MAX;
@@ -106,7 +108,13 @@ const ROUNDING: f64 = 1e-12;
 const REFINEMENTS: usize = 3;
 /// Largest imbalance of a row of a solution, relative to the larger of `h` and the largest column times its value.
 const RESIDUAL: f64 = 1e-9;
-/// Steps of length zero after which entering and leaving go by least index (Bland 1977), which cannot cycle.
+/// A pivot computed along its row and along its column may differ by this share before the factor is built again.
+const DISAGREEMENT: f64 = 1e-8;
+/// Factors of a row operation above this cost too many digits.
+const GROWTH: f64 = 1e6;
+/// The infeasibility must fall by this share to count as progress.
+const PROGRESS: f64 = 1e-12;
+/// Pivots without progress after which entering and leaving go by least index (Bland 1977), which cannot cycle.
 const STALL: usize = 100;
 
 impl ConeSolver {
@@ -153,6 +161,7 @@ impl ConeSolver {
             last_mark: None,
             residual: 0.0,
             counts: Counts::default(),
+            shaky: false,
             g,
         })
     }
@@ -306,8 +315,9 @@ impl ConeSolver {
 
     /// Drives the infeasibility down until it is gone or cannot fall. None if a pivot was refused.
     fn phase_one(&mut self, limit: usize) -> Option<Membership> {
-        let mut stalled = 0;
+        let (mut stalled, mut best) = (0, f64::INFINITY);
         loop {
+            self.rebuild_if_shaky()?;
             let x = &self.x;
             let basic = &self.basic;
             self.suspects.retain(|&p| infeasible(basic[p as usize], x[p as usize]) != 0.0);
@@ -318,6 +328,13 @@ impl ConeSolver {
                 return Some(Membership::PivotLimit);
             }
             self.multipliers();
+            let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
+            stalled = if infeasibility < best * (1.0 - PROGRESS) { 0 } else { stalled + 1 };
+            best = best.min(infeasibility);
+            if stalled == STALL {
+                self.shaky = true; // a factor gone wrong is the likelier reason
+                continue;
+            }
             let least_index = stalled > STALL;
             let (missing, position) = (&self.missing, &self.position);
             let allowed = |j: u32| missing[j as usize] == 0 && position[j as usize] == OUT;
@@ -325,19 +342,32 @@ impl ConeSolver {
                 return Some(Membership::Outside);
             };
             self.column_spike(entering);
-            let (step, leaving) = match self.balanced_row() {
-                Some(row) => (0.0, row),
+            let (step, leaving, rate) = match self.balanced_row() {
+                Some((row, rate)) => (0.0, row, rate),
                 None => {
                     self.direction_from_spike();
-                    self.ratio_test(least_index)?
+                    let (step, leaving) = self.ratio_test(least_index)?;
+                    (step, leaving, self.direction.get(leaving))
                 }
             };
-            stalled = if step > SLACK { 0 } else { stalled + 1 };
             if step > 0.0 {
                 self.step(step);
             }
-            self.exchange(entering, leaving, step)?;
+            self.exchange(entering, leaving, step, rate)?;
         }
+    }
+
+    /// Builds the factor again if a pivot showed lost digits. None if that fails.
+    fn rebuild_if_shaky(&mut self) -> Option<()> {
+        if std::mem::take(&mut self.shaky) {
+            let columns = self.basic_columns();
+            if !self.rebuild(&columns) {
+                return None;
+            }
+            self.recompute_values();
+            self.shaky = false;
+        }
+        Some(())
     }
 
     /// `y = B^-T c` with c the rate at which the infeasibility grows with each basic value.
@@ -371,16 +401,15 @@ impl ConeSolver {
 
     /// A row in balance that the spike alone shows to block the step at once, which saves the direction. Of several the
     /// one with the largest entry.
-    fn balanced_row(&self) -> Option<u32> {
+    fn balanced_row(&self) -> Option<(u32, f64)> {
         let balanced = |p: u32| self.basic[p as usize] == Basic::Unit && self.x[p as usize].abs() <= ZERO;
         let entry = |p: u32| self.factor.first_solved(p, &self.spike).filter(|entry| entry.abs() > SAFE_PIVOT);
         self.spike
             .index()
             .iter()
             .filter(|&&p| balanced(p))
-            .filter_map(|&p| Some((p, entry(p)?.abs())))
-            .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))
-            .map(|(p, _)| p)
+            .filter_map(|&p| Some((p, entry(p)?)))
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(b.0.cmp(&a.0)))
     }
 
     /// How far the entering column can go until a basic value reaches zero, and which. A unit column at zero allows
@@ -446,8 +475,10 @@ impl ConeSolver {
     }
 
     /// One pivot. None if the factor refuses it.
-    fn exchange(&mut self, entering: u32, leaving: u32, step: f64) -> Option<()> {
-        self.factor.replace(leaving, &self.spike)?;
+    fn exchange(&mut self, entering: u32, leaving: u32, step: f64, rate: f64) -> Option<()> {
+        let replacement = self.factor.replace(leaving, &self.spike)?;
+        let disagreement = (replacement.rate - rate).abs() / rate.abs();
+        self.shaky |= disagreement > DISAGREEMENT || replacement.growth > GROWTH;
         self.counts.pivots += 1;
         self.counts.major_cycles += 1;
         let left = self.basic[leaving as usize];
