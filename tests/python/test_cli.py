@@ -216,12 +216,11 @@ def test_help_answers_at_once() -> None:
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
-@pytest.mark.parametrize("test", ["reuse", "lp"])
-def test_an_interrupt_hands_back_the_best_so_far(test: str, tmp_path: Path) -> None:
-    orderless(20).save(tmp_path / "scene.json")
+@pytest.mark.parametrize("test", ["lcp", "lp"])
+def test_an_interrupt_hands_back_the_best_so_far(test: str) -> None:
     command = [sys.executable, "-c", "from drystone.cli import main; main()"]
     process = subprocess.Popen(
-        [*command, "plan", str(tmp_path / "scene.json"), "--test", test, "--json"],
+        [*command, "plan", "column:2000", "--test", test, "--json"],
         # A shell may start its background jobs with interrupts ignored.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         stdout=subprocess.PIPE,

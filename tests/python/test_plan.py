@@ -38,7 +38,7 @@ def test_every_structure_on_the_way_stands(name: str) -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_all_tests_lead_to_the_same_search(name: str) -> None:
     scene = SCENES[name]()
-    plans = {test: ds.plan(scene, test) for test in TESTS}
+    plans = {test: ds.plan(scene, test, shortcuts=False) for test in TESTS}
     visited = {
         test: [(record.size, record.stable) for record in plan.records]
         for test, plan in plans.items()
@@ -70,11 +70,21 @@ def test_one_thousand_random_assemblies() -> None:
         assert program(list(range(blocks)), blocks - 1)[0] == verdict.stable
         stands += verdict.stable
         searches = [
-            [(r.size, r.stable) for r in ds.plan(scene, test, node_limit=40).records]
+            [(r.size, r.stable) for r in ds.plan(scene, test, 40, shortcuts=False).records]
             for test in TESTS
         ]
         assert all(search == searches[0] for search in searches)
     assert 100 < stands < 900
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("test", ["reuse", "reuse-dantzig", "lcp"])
+def test_shortcuts_spare_tests_and_change_no_answer(name: str, test: str) -> None:
+    scene = SCENES[name]()
+    short, full = ds.plan(scene, test), ds.plan(scene, test, shortcuts=False)
+    assert (short.status, short.order) == (full.status, full.order)
+    assert short.tests <= full.tests
+    assert full.shortcuts == 0
 
 
 def test_reuse_needs_fewer_pivots() -> None:
@@ -111,7 +121,12 @@ def test_limits_hand_back_the_best_so_far() -> None:
 
 def test_progress_is_told() -> None:
     calls: list[tuple[int, int, int]] = []
-    plan = ds.plan(orderless(18), time_limit=0.5, progress=lambda *told: calls.append(told))
+    plan = ds.plan(
+        orderless(18),
+        time_limit=0.5,
+        progress=lambda *told: calls.append(told),
+        shortcuts=False,
+    )
     assert calls
     for tests, placed, total in calls:
         assert 0 <= tests <= plan.tests
@@ -123,7 +138,7 @@ def test_an_interrupt_is_a_status() -> None:
         raise KeyboardInterrupt
 
     try:
-        plan = ds.plan(orderless(18), progress=interrupt)
+        plan = ds.plan(orderless(18), progress=interrupt, shortcuts=False)
     except KeyboardInterrupt:
         pytest.fail("the best so far was lost")
     assert (plan.status, plan.found) == ("interrupted", False)
@@ -134,7 +149,7 @@ def test_an_error_in_progress_reaches_the_caller() -> None:
         raise RuntimeError("from the callback")
 
     with pytest.raises(RuntimeError, match="from the callback"):
-        ds.plan(orderless(18), progress=fail)
+        ds.plan(orderless(18), progress=fail, shortcuts=False)
 
 
 def test_the_same_plan_again() -> None:
