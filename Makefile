@@ -18,7 +18,7 @@ has = $(shell command -v $(1) 2>/dev/null)
 answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
 
 .NOTPARALLEL:
-.PHONY: help demo test build lint rust-tests python-tests types tools test-tools clean
+.PHONY: help demo test build lint style rust-tests python-tests types tools test-tools clean
 
 help:
 	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
@@ -36,7 +36,7 @@ demo: build
 	@echo "Done. Pictures and table are in $(OUT)/"
 
 # The wheel's build and the tests share the release profile: dependencies are compiled once.
-test: test-tools build rust-tests python-tests lint
+test: test-tools style build rust-tests python-tests lint
 	@echo "All tests and checks passed."
 
 build: $(VENV)/.ready
@@ -51,11 +51,14 @@ python-tests: build
 	@echo "== pytest"
 	@$(BIN)/pytest
 
-lint: test-tools build types
-	@echo "== cargo fmt, cargo clippy"
-	@cargo fmt --all --check
+lint: style types
+	@echo "== cargo clippy"
 	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
-	@echo "== ruff"
+
+# First, because it takes seconds.
+style: test-tools $(VENV)/.ready
+	@echo "== cargo fmt, ruff"
+	@cargo fmt --all --check
 	@$(BIN)/ruff check --quiet
 	@$(BIN)/ruff format --check --quiet
 
@@ -67,7 +70,7 @@ types: build
 $(VENV)/.ready: pyproject.toml | tools
 	@echo "== creating .venv"
 	@$(PYTHON) -m venv $(VENV)
-	@$(BIN)/pip install "maturin>=1.9,<2"
+	@$(BIN)/pip install "maturin>=1.9,<2" "ruff>=0.12"
 	@touch $@
 
 tools:
