@@ -43,7 +43,7 @@ build: $(VENV)/.ready
 	@echo "== building the core (release; a minute or two the first time)"
 	@$(BIN)/maturin develop --release --quiet --extras dev
 
-rust-tests: test-tools
+rust-tests: test-tools $(VENV)/.ready
 	@echo "== cargo test"
 	@cargo test --release --workspace --quiet
 
