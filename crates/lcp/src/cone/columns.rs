@@ -9,7 +9,7 @@ pub struct Columns {
     starts: Vec<usize>,
     entries: Vec<(u32, f64)>,
     row_starts: Vec<usize>,
-    row_columns: Vec<u32>,
+    row_columns: Vec<(u32, f64)>,
 }
 
 impl Columns {
@@ -43,11 +43,11 @@ impl Columns {
         indices.iter().for_each(|&row| row_starts[row + 1] += 1);
         (0..rows).for_each(|row| row_starts[row + 1] += row_starts[row]);
         let mut next = row_starts.clone();
-        let mut row_columns = vec![0; indices.len()];
+        let mut row_columns = vec![(0, 0.0); indices.len()];
         for column in 0..indptr.len() - 1 {
-            for &row in &indices[indptr[column]..indptr[column + 1]] {
-                row_columns[next[row]] = column as u32;
-                next[row] += 1;
+            for p in indptr[column]..indptr[column + 1] {
+                row_columns[next[indices[p]]] = (column as u32, data[p]);
+                next[indices[p]] += 1;
             }
         }
         let entries = indices.iter().zip(data).map(|(&row, &value)| (row as u32, value)).collect();
@@ -74,8 +74,8 @@ impl Columns {
         &self.entries[self.starts[j as usize]..self.starts[j as usize + 1]]
     }
 
-    /// Columns with an entry in a row, ascending.
-    pub fn columns_of(&self, row: u32) -> &[u32] {
+    /// Columns with an entry in a row, ascending, with the entry.
+    pub fn columns_of(&self, row: u32) -> &[(u32, f64)] {
         &self.row_columns[self.row_starts[row as usize]..self.row_starts[row as usize + 1]]
     }
 
@@ -90,6 +90,12 @@ impl Columns {
             let scale = if largest > 0.0 { largest.recip() } else { 1.0 };
             column.iter_mut().for_each(|(_, value)| *value *= scale);
             column_scale.push(scale);
+        }
+        for (row, &row_scale) in row_scale.iter().enumerate() {
+            for (column, value) in &mut self.row_columns[self.row_starts[row]..self.row_starts[row + 1]] {
+                *value *= row_scale;
+                *value *= column_scale[*column as usize];
+            }
         }
         column_scale
     }

@@ -78,7 +78,16 @@ pub struct ConeSolver {
     direction: SparseVector,
     spike: SparseVector,
     blocking: Vec<Blocking>,
+    /// `G f - h` of every present row as of the last check, the worst of them since all were summed, and the largest
+    /// value seen.
     balance: Vec<f64>,
+    worst: f64,
+    size: f64,
+    /// Positions whose value changed since the last check, columns that left, and rows to sum again.
+    changed: Vec<u32>,
+    is_changed: Vec<bool>,
+    left: Vec<u32>,
+    stale: Vec<u32>,
     changes: Vec<Change>,
     /// Values overwritten since the last mark, to restore it exactly.
     overwritten: Vec<(u32, f64)>,
@@ -156,6 +165,12 @@ impl ConeSolver {
             spike: SparseVector::zero(m),
             blocking: Vec::new(),
             balance: vec![0.0; m],
+            worst: 0.0,
+            size: 1.0,
+            changed: Vec::new(),
+            is_changed: vec![false; m],
+            left: Vec::new(),
+            stale: Vec::new(),
             changes: Vec::new(),
             overwritten: Vec::new(),
             last_mark: None,
@@ -209,11 +224,12 @@ impl ConeSolver {
             }
             self.rows.push(row as u32);
             self.changes.push(Change::Row(row as u32));
-            for &j in self.g.columns_of(row as u32) {
+            for &(j, _) in self.g.columns_of(row as u32) {
                 self.missing[j as usize] -= 1;
             }
             self.basic[row] = Basic::Unit;
             self.x[row] = self.h[row];
+            self.change(row as u32);
             self.suspects.push(row as u32);
         }
     }
@@ -253,7 +269,7 @@ impl ConeSolver {
                 }
                 Change::Row(row) => {
                     self.present[row as usize] = false;
-                    for &j in self.g.columns_of(row) {
+                    for &(j, _) in self.g.columns_of(row) {
                         self.missing[j as usize] += 1;
                     }
                 }
@@ -265,6 +281,7 @@ impl ConeSolver {
         if exact {
             self.suspects.clear();
             while let Some((position, value)) = self.overwritten.pop() {
+                self.change(position);
                 self.x[position as usize] = value;
             }
             self.rows.truncate(mark.rows);
@@ -289,6 +306,10 @@ impl ConeSolver {
             let sound = match found {
                 Some(Membership::Inside) => {
                     self.residual = self.imbalance();
+                    if self.residual > ROUNDING {
+                        self.recheck_all(); // the worst may be of long ago
+                        self.residual = self.imbalance();
+                    }
                     if self.residual > ROUNDING && refined < REFINEMENTS {
                         refined += 1;
                         self.refine();
@@ -467,6 +488,9 @@ impl ConeSolver {
             if self.last_mark.is_some() {
                 self.overwritten.push((p, *x));
             }
+            if !std::mem::replace(&mut self.is_changed[p as usize], true) {
+                self.changed.push(p);
+            }
             *x -= step * rate;
             if infeasible(self.basic[p as usize], *x) != 0.0 {
                 self.suspects.push(p);
@@ -484,7 +508,9 @@ impl ConeSolver {
         let left = self.basic[leaving as usize];
         if let Basic::Column(j) = left {
             self.position[j as usize] = OUT;
+            self.left.push(j);
         }
+        self.change(leaving);
         self.changes.push(Change::Pivot { position: leaving, entered: entering, left });
         self.put(leaving, Basic::Column(entering));
         self.remember(leaving);
@@ -507,6 +533,7 @@ impl ConeSolver {
         }
         self.factor.apply_operations(&mut self.direction);
         self.factor.solve_upper(&mut self.direction);
+        self.recheck_all();
         for k in 0..self.rows.len() {
             let row = self.rows[k];
             self.remember(row);
@@ -518,22 +545,81 @@ impl ConeSolver {
         }
     }
 
-    /// Largest `|G f - h|` of a present row, relative to the largest term in it, from `f` itself.
+    /// Largest `|G f - h|` of a present row, relative to the largest column times its value, from `f` itself. If few
+    /// values changed since the last time, only the rows of their columns are summed again; the others' stands.
     fn imbalance(&mut self) -> f64 {
-        let mut size = 1.0_f64;
+        if 4 * self.changed.len() > self.rows.len() {
+            self.sum_all_rows();
+        } else {
+            self.sum_changed_rows();
+        }
+        for &position in &self.changed {
+            self.is_changed[position as usize] = false;
+        }
+        self.changed.clear();
+        self.left.clear();
+        self.worst / self.size
+    }
+
+    fn sum_all_rows(&mut self) {
         for &row in &self.rows {
             self.balance[row as usize] = -self.h[row as usize];
         }
+        self.size = 1.0;
         for &p in &self.rows {
             if let Basic::Column(j) = self.basic[p as usize] {
                 let f = self.x[p as usize].max(0.0);
-                size = size.max(f);
+                self.size = self.size.max(f);
                 for &(row, value) in self.g.column(j) {
                     self.balance[row as usize] += f * value;
                 }
             }
         }
-        self.rows.iter().fold(0.0_f64, |worst, &row| worst.max(self.balance[row as usize].abs())) / size
+        self.worst = self.rows.iter().fold(0.0_f64, |worst, &row| worst.max(self.balance[row as usize].abs()));
+    }
+
+    fn sum_changed_rows(&mut self) {
+        self.stale.clear();
+        self.stale.extend(&self.changed);
+        for &position in &self.changed {
+            self.is_changed[position as usize] = false;
+            if let Basic::Column(j) = self.basic[position as usize] {
+                self.size = self.size.max(self.x[position as usize]);
+                self.left.push(j);
+            }
+        }
+        for &j in &self.left {
+            self.stale.extend(self.g.column(j).iter().map(|&(row, _)| row));
+        }
+        for &row in &self.stale {
+            if std::mem::replace(&mut self.is_changed[row as usize], true) || !self.present[row as usize] {
+                continue;
+            }
+            let force = |&(j, value): &(u32, f64)| match self.position[j as usize] {
+                OUT => 0.0,
+                position => value * self.x[position as usize].max(0.0),
+            };
+            let sum: f64 = self.g.columns_of(row).iter().map(force).sum();
+            self.balance[row as usize] = sum - self.h[row as usize];
+            self.worst = self.worst.max(self.balance[row as usize].abs());
+        }
+        for &row in &self.stale {
+            self.is_changed[row as usize] = false;
+        }
+    }
+
+    /// Every row is to be summed again.
+    fn recheck_all(&mut self) {
+        for k in 0..self.rows.len() {
+            self.change(self.rows[k]);
+        }
+    }
+
+    /// Notes that the value in a position is about to change.
+    fn change(&mut self, position: u32) {
+        if !std::mem::replace(&mut self.is_changed[position as usize], true) {
+            self.changed.push(position);
+        }
     }
 
     /// One step of iterative refinement on every basic value, from the imbalance just computed.
@@ -553,12 +639,11 @@ impl ConeSolver {
     fn certifies(&self) -> bool {
         let size = self.y.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
         let power: f64 = self.y.iter().map(|(row, value)| value * self.h[row as usize]).sum();
-        let rises = |j: &&u32| {
-            let rate: f64 = self.g.column(**j).iter().map(|&(row, value)| value * self.y.get(row)).sum();
-            self.missing[**j as usize] == 0 && rate > 10.0 * RATE * size
+        let rises = |&(j, _): &(u32, f64)| {
+            let rate: f64 = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row)).sum();
+            self.missing[j as usize] == 0 && rate > 10.0 * RATE * size
         };
-        let touched = |(row, _): (u32, f64)| self.g.columns_of(row).iter().find(rises);
-        power > 0.0 && !self.y.iter().any(|entry| touched(entry).is_some())
+        power > 0.0 && !self.y.iter().any(|(row, _)| self.g.columns_of(row).iter().any(rises))
     }
 
     fn basic_columns(&self) -> Vec<u32> {

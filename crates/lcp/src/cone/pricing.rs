@@ -29,7 +29,7 @@ impl Pricing {
     ) -> Option<u32> {
         for (row, value) in y.iter() {
             if value != 0.0 {
-                for &j in g.columns_of(row) {
+                for &(j, _) in g.columns_of(row) {
                     if allowed(j) && !std::mem::replace(&mut self.seen[j as usize], true) {
                         self.touched.push(j);
                     }
