@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from drystone import lcp, scenes
     from drystone._core import DrystoneError, LcpError, SceneError, StartError, __version__
+    from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.planning import Plan, TestRecord, plan
     from drystone.scene import Body, Contact, Scene
     from drystone.statics import StaticsError
@@ -21,10 +22,13 @@ __all__ = [
     "Contact",
     "ContactForce",
     "DrystoneError",
+    "EngineError",
     "LcpError",
+    "ManyPlans",
     "Plan",
     "Scene",
     "SceneError",
+    "ScenePlan",
     "StartError",
     "StaticsError",
     "TestRecord",
@@ -33,6 +37,7 @@ __all__ = [
     "check",
     "lcp",
     "plan",
+    "plan_many",
     "scenes",
 ]
 
@@ -42,10 +47,13 @@ _HOMES = {
     "Contact": "drystone.scene",
     "ContactForce": "drystone.verdict",
     "DrystoneError": "drystone._core",
+    "EngineError": "drystone.many",
     "LcpError": "drystone._core",
+    "ManyPlans": "drystone.many",
     "Plan": "drystone.planning",
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
+    "ScenePlan": "drystone.many",
     "StartError": "drystone._core",
     "StaticsError": "drystone.statics",
     "TestRecord": "drystone.planning",
@@ -53,6 +61,7 @@ _HOMES = {
     "__version__": "drystone._core",
     "check": "drystone.verdict",
     "plan": "drystone.planning",
+    "plan_many": "drystone.many",
 }
 
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from drystone.cli.errors import InputError
 from drystone.cli.scene import scene_app
 
 app = typer.Typer(
@@ -43,6 +44,13 @@ class StabilityTest(str, Enum):
     lcp = "lcp"
     lp = "lp"
     lp_warm = "lp-warm"
+
+
+class Engine(str, Enum):
+    """Where the scenes of a folder are planned."""
+
+    threads = "threads"
+    ray = "ray"
 
 
 @app.callback(invoke_without_command=True)
@@ -84,9 +92,37 @@ def plan(
         float | None, typer.Option(min=0.0, help="At most so many seconds.")
     ] = None,
     as_json: AsJson = False,
-    output: Picture = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o", "--output", help="Write a picture, .svg or .png; the plans of a folder."
+        ),
+    ] = None,
+    engine: Annotated[
+        Engine | None, typer.Option(help="For a folder: where its scenes are planned.")
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="For a folder: so many at a time; one a core.")
+    ] = None,
+    address: Annotated[
+        str | None,
+        typer.Option(help="With --engine ray: the cluster, [bold]auto[/] for the one here."),
+    ] = None,
 ) -> int:
-    """In which order can it be taken apart so that it never collapses?"""
+    """In which order can it be taken apart so that it never collapses?
+
+    SCENE may be a folder of scene files: each is planned; what is finished is not repeated.
+    """
+    if Path(scene).is_dir():
+        from drystone.cli import plan_many
+
+        where = (engine or Engine.threads).value
+        limits = (node_limit, time_limit)
+        return plan_many.run(
+            Path(scene), where, output, test.value, *limits, workers, address, as_json
+        )
+    if engine is not None or workers is not None or address is not None:
+        raise InputError(f"{scene} is no folder: --engine, --workers and --address are for folders")
     from drystone.cli import plan as command
 
     return command.run(scene, test.value, node_limit, time_limit, as_json, output)

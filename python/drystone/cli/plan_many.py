@@ -1,0 +1,99 @@
+"""`drystone plan` of a folder."""
+
+from __future__ import annotations
+
+import json
+import sys
+from contextlib import redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drystone.cli import BAD_INPUT, INTERRUPTED
+from drystone.cli.errors import InputError
+from drystone.cli.inputs import reporting_files
+from drystone.many import ManyPlans, plan_many
+from drystone.many.progress import ManyProgress
+from drystone.verdict import shorten
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+MOST_ROWS = 40
+"""Longer tables are cut, with a line that says so; --json has everything."""
+
+
+def run(
+    folder: Path,
+    engine: str,
+    output: Path | None,
+    test: str,
+    node_limit: int | None,
+    time_limit: float | None,
+    workers: int | None,
+    address: str | None,
+    as_json: bool,
+) -> int:
+    """0 if every scene has an order, 1 if some has none, 2 if some could not be planned."""
+    if output is None:
+        raise InputError(f"{folder} is a folder: say with -o into which folder its plans go")
+    if output.resolve() == folder.resolve():
+        raise InputError(f"{output}: plans go into another folder than the scenes")
+    try:
+        # Ray tells of lost machines on standard output, which is for the answer.
+        with reporting_files(), redirect_stdout(sys.stderr), ManyProgress() as progress:
+            many = plan_many(
+                folder,
+                engine,
+                output,
+                test=test,
+                node_limit=node_limit,
+                time_limit=time_limit,
+                workers=workers,
+                address=address,
+                progress=progress,
+            )
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    if as_json:
+        print(json.dumps(many.to_dict(), indent=2))
+    else:
+        _print(many, output)
+    if many.bad:
+        names = shorten(Path(answer.name).name for answer in many.bad)
+        print(f"drystone: {len(many.bad)} of {len(many)} not planned: {names}", file=sys.stderr)
+    return _status(many)
+
+
+def _status(many: ManyPlans) -> int:
+    if many.interrupted:
+        return INTERRUPTED
+    if many.bad:
+        return BAD_INPUT
+    return 1 if many.without_order else 0
+
+
+def _print(many: ManyPlans, output: Path) -> None:
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    every = many.found == len(many) and not many.interrupted
+    console.print(str(many), style="bold green" if every else "bold red")
+    if many.bad or many.without_order:
+        console.print(_table(many))
+    console.print(f"plans: {output}", soft_wrap=True)
+
+
+def _table(many: ManyPlans) -> Table:
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD)
+    table.add_column("scene")
+    table.add_column("why there is no order", overflow="fold")
+    rows = [*many.bad, *many.without_order]
+    for answer in rows[:MOST_ROWS]:
+        table.add_row(Text(answer.name), Text(answer.error or answer.status))
+    if len(rows) > MOST_ROWS:
+        table.caption = f"the first {MOST_ROWS} of {len(rows)}; --json lists all"
+    return table

@@ -1,0 +1,113 @@
+"""Many scenes, on the cores of one machine or on a cluster.
+
+    jobs -> engine (threads | ray) -> work on one scene -> store -> answers
+
+Only the process that called `plan_many` writes; workers, wherever they are, get the text of a scene
+and send back the text of an answer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from os import PathLike
+
+from drystone.many import engines
+from drystone.many.answers import ManyPlans, ScenePlan
+from drystone.many.engines import EngineError
+from drystone.many.jobs import Job, Scenes, jobs_of
+from drystone.many.store import Store
+from drystone.many.work import Settings
+
+__all__ = ["ENGINES", "EngineError", "ManyPlans", "Progress", "ScenePlan", "plan_many"]
+
+ENGINES = engines.ENGINES
+"""Where the planning is done: see `plan_many`."""
+
+Progress = Callable[[int, "int | None", ScenePlan], None]
+"""Called with (scenes done, scenes in all or None if nobody knows, the answer that came in)."""
+
+
+def plan_many(
+    scenes: Scenes,
+    engine: str = "threads",
+    output: str | PathLike[str] | None = None,
+    *,
+    test: str = "reuse",
+    node_limit: int | None = None,
+    time_limit: float | None = None,
+    shortcuts: bool = True,
+    workers: int | None = None,
+    address: str | None = None,
+    retries: int = 3,
+    progress: Progress | None = None,
+) -> ManyPlans:
+    """Plan every one of `scenes`, each as `plan` would.
+
+    `scenes` is a folder (its files `*.json`, by name), or any iterable of scenes and of paths of
+    scene files, or a mapping from names to these. It may be a generator: only as many scenes as
+    keep the workers busy are held at a time.
+
+    `engine` says where:
+
+    - "threads": on threads of this process, `workers` of them (by default one a core);
+    - "ray": as tasks of Ray, `pip install "drystone[ray]"`. With `address` on the cluster there
+      ("auto": the one running on this machine). Without, on the cluster that this process is
+      connected to, that RAY_ADDRESS names or that runs on this machine; if there is none, Ray is
+      started on this machine for the call, with `workers` CPUs (by default one a core). A task
+      takes one CPU, and is repeated elsewhere, at most `retries` times, if its machine dies.
+
+    With `output`, a folder, every answer is written as it comes: one file a scene, named by the
+    scene's name and content, whole or not at all, and a line in `index.jsonl`. A later call with
+    the same folder repeats nothing that is there for the same content and the same settings
+    (`test`, `node_limit`, `time_limit`, `shortcuts` and the version of drystone). Without `output`
+    answers are kept in memory only.
+
+    A scene that cannot be read is recorded as such and stops nothing. Ctrl-C ends the call early:
+    what is finished is in the answer, whose `interrupted` is then true.
+
+    Orders, tests and pivots do not depend on engine or workers, unless `time_limit` cuts them.
+
+    Raises ValueError or TypeError for an argument that is not usable, OSError for a folder that is
+    not, and EngineError if Ray is not there.
+
+    >>> import drystone as ds, tempfile
+    >>> scenes = {"column": ds.scenes.column(4), "arch": ds.scenes.arch(5)}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     first = ds.plan_many(scenes, output=folder)
+    ...     again = ds.plan_many(scenes, output=folder)
+    ...     first["column"].order, first["arch"].status, again.reused
+    (('3', '2', '1'), 'no_order', 2)
+    """
+    settings = Settings.checked(test, node_limit, time_limit, shortcuts)
+    jobs, total = jobs_of(scenes)
+    run = engines.of(engine, workers=workers, address=address, retries=retries)
+    answers: dict[str, ScenePlan | None] = {}  # in the order of the scenes; None: under way
+    done = 0
+    interrupted = False
+
+    def take(job: Job, answer: ScenePlan) -> None:
+        nonlocal done
+        answers[job.key] = answer
+        done += 1
+        if progress is not None:
+            progress(done, total, answer)
+
+    def unfinished(store: Store) -> Iterator[Job]:
+        nonlocal done
+        for job in jobs:
+            if job.key in answers:
+                done += 1  # the same name and content as one before
+                continue
+            answers[job.key] = None
+            if (answer := store.find(job)) is not None:
+                take(job, answer)
+            else:
+                yield job
+
+    with Store.open(output, settings) as store:
+        try:
+            run(unfinished(store), settings, lambda job, text: take(job, store.add(job, text)))
+        except KeyboardInterrupt:
+            interrupted = True
+    found = tuple(answer for answer in answers.values() if answer is not None)
+    return ManyPlans(found, interrupted)

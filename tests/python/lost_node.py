@@ -1,0 +1,66 @@
+"""`drystone plan` on a cluster of three machines, of which one is killed at work.
+
+    python lost_node.py SCENES OUTPUT TRACE
+
+A process of its own: Ray reads its environment when it is imported. TRACE gets a line "SCENE NODE"
+for each time a task was begun, and "killed NODE".
+"""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from pathlib import Path
+
+import ray
+from ray.cluster_utils import Cluster
+
+from drystone.cli import run
+from drystone.many import work
+from drystone.many.store import read_index
+
+SCENES, OUTPUT, TRACE = (Path(argument) for argument in sys.argv[1:])
+ENOUGH = 4
+"""Answers before a machine is killed: both have begun to work, most work is still to do."""
+NODE = {"object_store_memory": 80 * 2**20, "include_dashboard": False}
+# A machine that is silent for five seconds is dead; Ray's own patience is 15 to 30.
+PATIENCE = {"health_check_period_ms": 1000, "health_check_failure_threshold": 5}
+plan_text = work.plan_text
+
+
+def note(text: str) -> None:
+    with TRACE.open("a") as trace:
+        trace.write(text + "\n")
+
+
+def traced(text: str, source: str, settings: work.Settings) -> str:
+    """`plan_text` with a trace."""
+    note(f"{Path(source).stem} {ray.get_runtime_context().get_node_id()}")
+    return plan_text(text, source, settings)
+
+
+def main() -> int:
+    head = {"num_cpus": 0, "_system_config": PATIENCE, **NODE}
+    cluster = Cluster(initialize_head=True, head_node_args=head)
+    try:
+        nodes = [cluster.add_node(num_cpus=1, **NODE) for _ in range(2)]
+        cluster.wait_for_nodes()
+
+        def kill_one() -> None:
+            while len(read_index(OUTPUT)) < ENOUGH:
+                time.sleep(0.01)
+            cluster.remove_node(nodes[0], allow_graceful=False)
+            note(f"killed {nodes[0].node_id}")
+
+        work.plan_text = traced
+        threading.Thread(target=kill_one, daemon=True).start()
+        where = ["--engine", "ray", "--address", cluster.address]
+        how = ["--test", "lp", "--json"]
+        return run(["plan", str(SCENES), "-o", str(OUTPUT), *where, *how])
+    finally:
+        cluster.shutdown()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
