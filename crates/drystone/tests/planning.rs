@@ -255,14 +255,14 @@ fn accelerations_do_not_depend_on_the_start() {
             falling += usize::from(!fresh.stable);
             let rows = assembly.rows_added(&set, added);
 
-            rolled.restore(&state);
+            rolled.restore(&state).unwrap();
             let indices = assembly.rows(&current);
             let z = indices.iter().map(|&j| rolled.z(j)).collect();
-            rolled.add_rows(&rows);
+            rolled.add_rows(&rows).unwrap();
             same_accelerations(&assembly, &set, &mut rolled, &fresh);
 
             started.start_from(&Start { indices, z }).unwrap();
-            started.add_rows(&rows);
+            started.add_rows(&rows).unwrap();
             let before = started.counts();
             same_accelerations(&assembly, &set, &mut started, &fresh);
             let cycles = (started.counts() - before).major_cycles;

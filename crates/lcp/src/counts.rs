@@ -12,6 +12,10 @@ pub struct Counts {
     pub pivots: usize,
     /// Times the active block was factored from scratch because updates had lost accuracy.
     pub refactorisations: usize,
+    /// Rows put into the factor of the active block and taken out of it. [`Solver`](crate::Solver) only.
+    pub factor_rows: usize,
+    /// Stored numbers of the factor read by triangular solves, both ways. [`Solver`](crate::Solver) only.
+    pub entries_solved: usize,
 }
 
 impl std::ops::Add for Counts {
@@ -23,6 +27,8 @@ impl std::ops::Add for Counts {
             minor_cycles: self.minor_cycles + other.minor_cycles,
             pivots: self.pivots + other.pivots,
             refactorisations: self.refactorisations + other.refactorisations,
+            factor_rows: self.factor_rows + other.factor_rows,
+            entries_solved: self.entries_solved + other.entries_solved,
         }
     }
 }
@@ -36,6 +42,8 @@ impl std::ops::Sub for Counts {
             minor_cycles: self.minor_cycles - earlier.minor_cycles,
             pivots: self.pivots - earlier.pivots,
             refactorisations: self.refactorisations - earlier.refactorisations,
+            factor_rows: self.factor_rows - earlier.factor_rows,
+            entries_solved: self.entries_solved - earlier.entries_solved,
         }
     }
 }

@@ -63,6 +63,53 @@ pub enum LcpError {
         /// `y' M y` of the direction y found there (scaled so that M has a unit diagonal).
         curvature: f64,
     },
+    /// A row that the complete problem does not have.
+    #[error("row {row} is outside a problem with {n} rows")]
+    RowOutOfRange {
+        /// The row.
+        row: usize,
+        /// Rows of the complete problem.
+        n: usize,
+    },
+    /// Values of `q` and the rows they are for differ in number.
+    #[error("{values} values of q for {rows} rows: give one for each row")]
+    ValuesForRows {
+        /// Number of rows.
+        rows: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// A snapshot was taken from another solver.
+    #[error("the snapshot is one of another solver: restore it there, or solve its rows here")]
+    ForeignSnapshot,
+    /// `G`, the inverse masses and the load do not fit together.
+    #[error(
+        "G has {rows} rows but there are {inverse_masses} inverse masses and {loads} loads: give one of each for every row"
+    )]
+    GeneratorShape {
+        /// Rows of `G`.
+        rows: usize,
+        /// Number of inverse masses.
+        inverse_masses: usize,
+        /// Length of the load.
+        loads: usize,
+    },
+    /// An inverse mass that is negative or not finite.
+    #[error("inverse mass [{row}] is {value}: it must be finite, and zero or more")]
+    InverseMass {
+        /// Row of `G`.
+        row: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// A NaN or an infinity in the load.
+    #[error("h[{row}] is {value}: every entry must be finite")]
+    LoadNotFinite {
+        /// Row of `G`.
+        row: usize,
+        /// The entry.
+        value: f64,
+    },
     /// A start that cannot be used.
     #[error("the start cannot be used: {0}")]
     Start(#[from] StartError),

@@ -26,6 +26,7 @@ pub mod cone;
 mod counts;
 mod error;
 pub mod factor;
+mod generators;
 mod matrix;
 mod pivot;
 mod problem;

@@ -63,6 +63,11 @@ impl Problem {
         &self.q
     }
 
+    /// Replaces `q` by finite values of the same number.
+    pub(crate) fn set_q(&mut self, q: &[f64]) {
+        self.q.copy_from_slice(q);
+    }
+
     /// `M z + q`.
     pub fn w(&self, z: &[f64]) -> Vec<f64> {
         self.m.multiply_add(z, &self.q)

@@ -9,19 +9,25 @@
 //! Cottle and Dantzig (1968); Baraff, Fast contact force computation for nonpenetrating rigid bodies (1994);
 //! Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006).
 
+mod drive;
+mod settle;
+mod snapshot;
+
 use crate::{
     basis::Basis,
+    cone::Columns,
     counts::Counts,
     error::LcpError,
     factor::{self, ActiveFactor},
     matrix::SparseColumns,
     problem::Problem,
-    ratio::{Blocker, Candidate, TieRule, ratio_test},
+    ratio::Candidate,
     reuse::{Start, StartError},
     scaling::Scaling,
     settings::Settings,
     solution::{Solution, Status},
 };
+use std::sync::Arc;
 
 /// What is known of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,23 +40,53 @@ enum Role {
     Considered,
 }
 
-/// Dantzig's method as an object: rows of one complete problem are added, solved, and rolled back to.
+/// Dantzig's method as an object: rows of one complete problem come and go, `q` changes, states are rolled back to, and
+/// [`Self::solve`] answers for the rows present, starting from what it had.
+///
+/// The answer is that of a fresh solve of the rows present (`w` is; `z` too where it is unique). Between two solves the
+/// factor of the active block is moved by the rows that enter and leave it, never rebuilt.
 ///
 /// Everything inside is scaled to a unit diagonal; what goes in and comes out is in the caller's units.
+///
+/// ```
+/// use drystone_lcp::{Problem, Settings, Solver, Status};
+///
+/// let problem = Problem::from_dense(&[2.0, 1.0, 1.0, 2.0], vec![-5.0, -6.0])?;
+/// let mut solver = Solver::new(problem, Settings::default())?;
+/// solver.add_rows(&[0, 1])?;
+/// assert_eq!(solver.solve()?, Status::Solved);
+/// solver.remove_rows(&[0])?;
+/// solver.set_q_at(&[1], &[-4.0])?;
+/// assert_eq!(solver.solve()?, Status::Solved);
+/// assert!(solver.z(0) == 0.0 && (solver.z(1) - 2.0).abs() < 1e-12);
+/// # Ok::<(), drystone_lcp::LcpError>(())
+/// ```
 #[derive(Debug)]
 pub struct Solver {
     problem: Problem,
     scaling: Scaling,
-    m: SparseColumns,
-    q: Vec<f64>,
+    /// Scaled to a unit diagonal. Snapshots hold it too, which tells them from those of other solvers.
+    m: Arc<SparseColumns>,
+    load: Arc<Load>,
+    /// Largest scaled `q` of a present row.
+    q_size: f64,
     settings: Settings,
     factor: Box<dyn ActiveFactor>,
     active: Basis,
     role: Vec<Role>,
     z: Vec<f64>,
     w: Vec<f64>,
+    /// The row driven last: it may have `z > 0` without being active.
+    driven: Option<usize>,
+    /// Whether the state is complementary; a solve settles it first where it is not.
+    settled: bool,
     dz: Vec<f64>,
+    /// Where `dz` may differ from zero.
+    moving: Vec<usize>,
     dw: Vec<f64>,
+    /// Where `dw` may differ from zero.
+    reached: Vec<usize>,
+    is_reached: Vec<bool>,
     candidates: Vec<Candidate>,
     counts: Counts,
     counts_at_solve: Counts,
@@ -58,11 +94,21 @@ pub struct Solver {
     ray: Option<Vec<f64>>,
 }
 
-/// A solved state to return to: what is known of each row, and the active rows with their values.
+/// `q` in the caller's unit and scaled.
+#[derive(Debug, Clone)]
+struct Load {
+    q: Vec<f64>,
+    scaled: Vec<f64>,
+}
+
+/// A state of a [`Solver`] to return to: what is known of each row, `q`, and the active rows with their values.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
+    matrix: Arc<SparseColumns>,
+    load: Arc<Load>,
     role: Vec<Role>,
     active: Vec<(usize, f64)>,
+    settled: bool,
 }
 
 /// How a major cycle ended.
@@ -105,7 +151,7 @@ impl Solver {
         problem.require_symmetric()?;
         let scaling = Scaling::new(&problem);
         let m = problem.m().scaled_symmetrically(&scaling.d);
-        let q = scaling.d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
+        let scaled = scaling.d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
         let n = problem.len();
         Ok(Self {
             factor: factor::choose(&m),
@@ -113,22 +159,36 @@ impl Solver {
             role: vec![Role::Absent; n],
             z: vec![0.0; n],
             w: vec![0.0; n],
+            driven: None,
+            settled: true,
             dz: vec![0.0; n],
+            moving: Vec::new(),
             dw: vec![0.0; n],
+            reached: Vec::new(),
+            is_reached: vec![false; n],
             candidates: Vec::new(),
             counts: Counts::default(),
             counts_at_solve: Counts::default(),
             residual: 0.0,
             ray: None,
+            m: Arc::new(m),
+            load: Arc::new(Load { q: problem.q().to_vec(), scaled }),
+            q_size: 0.0,
             problem,
             scaling,
-            m,
-            q,
             settings,
         })
     }
 
-    /// The complete problem.
+    /// The problem `M = G' W G`, `q = -G' W h` of generators; see [`Problem::from_generators`].
+    ///
+    /// # Errors
+    /// As [`Problem::from_generators`] and [`Self::new`].
+    pub fn from_generators(g: &Columns, inverse_mass: &[f64], h: &[f64], settings: Settings) -> Result<Self, LcpError> {
+        Self::new(Problem::from_generators(g, inverse_mass, h)?, settings)
+    }
+
+    /// The complete problem, with the present `q`.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
@@ -143,28 +203,105 @@ impl Solver {
         self.residual
     }
 
-    /// `z_i` of a row, in the caller's unit; zero for a row that is not present.
+    /// Rows that are present, ascending.
+    pub fn rows(&self) -> Vec<usize> {
+        (0..self.role.len()).filter(|&i| self.role[i] != Role::Absent).collect()
+    }
+
+    /// `z_i` of the last solve, in the caller's unit; zero for a row that is not present. After a change of rows or of
+    /// `q` only the next solve says what it is.
     pub fn z(&self, i: usize) -> f64 {
         self.z[i] * self.scaling.d[i]
     }
 
-    /// Takes every row out. Work counts go on.
+    /// Takes every row out. `q` stays, and work counts go on.
     pub fn clear(&mut self) {
         self.factor.clear();
         self.active.clear();
         self.role.fill(Role::Absent);
         self.z.fill(0.0);
         self.w.fill(0.0);
+        self.driven = None;
+        self.settled = true;
+        self.q_size = 0.0;
     }
 
     /// Adds rows of the complete problem with `z = 0`; rows already present stay as they are.
-    pub fn add_rows(&mut self, rows: &[usize]) {
+    ///
+    /// # Errors
+    /// [`LcpError::RowOutOfRange`]; nothing has changed then.
+    pub fn add_rows(&mut self, rows: &[usize]) -> Result<(), LcpError> {
+        self.require_rows(rows)?;
         for &i in rows {
             if self.role[i] == Role::Absent {
                 self.role[i] = Role::Waiting;
-                self.w[i] = self.q[i] + self.m.column_dot(i, &self.z);
+                self.w[i] = self.load.scaled[i] + self.m.column_dot(i, &self.z);
+                self.q_size = self.q_size.max(self.load.scaled[i].abs());
             }
         }
+        Ok(())
+    }
+
+    /// Takes rows out: their `z` becomes zero, and they leave the factor. The next solve starts from the active rows that
+    /// remain. Rows that are not present stay so.
+    ///
+    /// # Errors
+    /// [`LcpError::RowOutOfRange`]; nothing has changed then.
+    pub fn remove_rows(&mut self, rows: &[usize]) -> Result<(), LcpError> {
+        self.require_rows(rows)?;
+        for &i in rows {
+            self.role[i] = Role::Absent;
+            // Without force nothing else feels that the row has gone.
+            self.settled &= self.z[i] == 0.0;
+            self.leave(i);
+        }
+        self.measure_q();
+        Ok(())
+    }
+
+    /// Replaces `q` (n) of the complete problem. The next solve starts from the active rows of the last one.
+    ///
+    /// # Errors
+    /// [`LcpError::Shape`], [`LcpError::VectorNotFinite`]; nothing has changed then.
+    pub fn set_q(&mut self, q: &[f64]) -> Result<(), LcpError> {
+        let n = self.problem.len();
+        if q.len() != n {
+            return Err(LcpError::Shape { rows: n, columns: n, q: q.len() });
+        }
+        self.change_q(q.iter().copied().enumerate())
+    }
+
+    /// Replaces `q` on some rows, present or not; of a row given twice the last value counts.
+    ///
+    /// # Errors
+    /// [`LcpError::RowOutOfRange`], [`LcpError::ValuesForRows`], [`LcpError::VectorNotFinite`]; nothing has changed
+    /// then.
+    pub fn set_q_at(&mut self, rows: &[usize], values: &[f64]) -> Result<(), LcpError> {
+        self.require_rows(rows)?;
+        if rows.len() != values.len() {
+            return Err(LcpError::ValuesForRows { rows: rows.len(), values: values.len() });
+        }
+        self.change_q(rows.iter().copied().zip(values.iter().copied()))
+    }
+
+    fn change_q(&mut self, changes: impl Iterator<Item = (usize, f64)> + Clone) -> Result<(), LcpError> {
+        if let Some((index, value)) = changes.clone().find(|(_, value)| !value.is_finite()) {
+            return Err(LcpError::VectorNotFinite { index, value });
+        }
+        let load = Arc::make_mut(&mut self.load);
+        for (i, value) in changes {
+            self.settled &= load.q[i] == value || self.role[i] == Role::Absent;
+            load.q[i] = value;
+            load.scaled[i] = self.scaling.d[i] * value;
+        }
+        self.take_load(Arc::clone(&self.load));
+        self.measure_q();
+        Ok(())
+    }
+
+    fn require_rows(&self, rows: &[usize]) -> Result<(), LcpError> {
+        let n = self.problem.len();
+        rows.iter().find(|&&row| row >= n).map_or(Ok(()), |&row| Err(LcpError::RowOutOfRange { row, n }))
     }
 
     /// Replaces the state by the solution of a principal sub-problem (Theorem 1).
@@ -178,6 +315,7 @@ impl Solver {
             self.role[i] = Role::Considered;
             self.z[i] = z / self.scaling.d[i];
         }
+        self.measure_q();
         self.recompute_w();
         if let Err(error) = self.require_complementary(start) {
             self.clear();
@@ -192,37 +330,19 @@ impl Solver {
         Ok(())
     }
 
-    /// The solved state, to come back to with [`Self::restore`].
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot { role: self.role.clone(), active: self.active.members().iter().map(|&i| (i, self.z[i])).collect() }
-    }
-
-    /// Returns to a snapshot of this solver. The factor is moved by the rows in which the active sets differ.
-    pub fn restore(&mut self, snapshot: &Snapshot) {
-        self.role.copy_from_slice(&snapshot.role);
-        self.z.fill(0.0);
-        let mut wanted = vec![false; self.z.len()];
-        for &(i, z) in &snapshot.active {
-            wanted[i] = true;
-            self.z[i] = z;
-        }
-        for i in self.active.members().to_vec() {
-            if !wanted[i] {
-                self.factor.remove(i);
-                self.active.remove(i);
+    fn require_complementary(&self, start: &Start) -> Result<(), StartError> {
+        let tolerance = START_TOLERANCE * largest(&self.z, &start.indices).max(self.q_size);
+        for &index in &start.indices {
+            let (z, w) = (self.z[index], self.w[index]);
+            let unscaled = w / self.scaling.d[index];
+            if w < -tolerance {
+                return Err(StartError::Violated { index, w: unscaled });
+            }
+            if z > tolerance && w > tolerance {
+                return Err(StartError::NotComplementary { index, z: self.z(index), w: unscaled });
             }
         }
-        let mut lost = false;
-        for &(i, _) in &snapshot.active {
-            if !self.active.contains(i) {
-                lost |= self.factor.insert(&self.m, i).is_err();
-                self.active.insert(i);
-            }
-        }
-        if lost {
-            self.refactor();
-        }
-        self.recompute_w();
+        Ok(())
     }
 
     /// Drives every violated row that is present to feasibility.
@@ -232,11 +352,21 @@ impl Solver {
     pub fn solve(&mut self) -> Result<Status, LcpError> {
         self.counts_at_solve = self.counts;
         self.ray = None;
+        let answer = self.solve_present();
+        // Without an answer the row driven last has both z > 0 and w < 0.
+        self.settled = answer == Ok(Status::Solved);
+        answer
+    }
+
+    fn solve_present(&mut self) -> Result<Status, LcpError> {
         let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
         let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
         let mut rounds = 0;
         let mut repairs = [Self::refactor, Self::restart].into_iter();
         loop {
+            if !self.settled {
+                self.settle();
+            }
             match self.drive_all(limit)? {
                 Cycle::Feasible => match self.recompute() {
                     Checked::Solved => return Ok(Status::Solved),
@@ -257,11 +387,13 @@ impl Solver {
                 self.residual = self.present_residual();
                 return Ok(Status::NumericalTrouble);
             };
+            self.settled = false;
             repair(self);
         }
     }
 
-    /// The pair of the last solve, in the caller's units. Rows that are not present have `z = 0`.
+    /// The pair of the last solve, in the caller's units. Rows that are not present have `z = 0`, and as `w` what would be
+    /// theirs.
     pub fn solution(&self, status: Status) -> Solution {
         let z: Vec<f64> = (0..self.z.len()).map(|i| self.z(i)).collect();
         Solution {
@@ -272,365 +404,6 @@ impl Solver {
             counts: self.counts - self.counts_at_solve,
             z,
         }
-    }
-
-    fn drive_all(&mut self, limit: usize) -> Result<Cycle, LcpError> {
-        while let Some(i) = self.most_violated() {
-            let cycle = self.major_cycle(i, limit)?;
-            if cycle != Cycle::Feasible {
-                return Ok(cycle);
-            }
-        }
-        Ok(Cycle::Feasible)
-    }
-
-    /// The present row with the most negative `w`; the least index among equals, so that rounding does not
-    /// decide the order of a symmetric structure.
-    fn most_violated(&self) -> Option<usize> {
-        const EQUAL: f64 = 1e-9;
-        let threshold = self.settings.feasibility * self.own_scale();
-        let violated = |&i: &usize| self.role[i] != Role::Absent && self.w[i] < -threshold;
-        let worst = (0..self.w.len()).filter(violated).map(|i| self.w[i]).reduce(f64::min)?;
-        (0..self.w.len()).filter(violated).find(|&i| self.w[i] <= worst * (1.0 - EQUAL))
-    }
-
-    /// Drives `z_i` up until `w_i` is zero, keeping every row considered before feasible.
-    fn major_cycle(&mut self, i: usize, limit: usize) -> Result<Cycle, LcpError> {
-        self.role[i] = Role::Considered;
-        self.counts.major_cycles += 1;
-        let mut stalled = 0;
-        loop {
-            if self.counts.pivots >= limit {
-                return Ok(Cycle::Limit);
-            }
-            self.direction(i);
-            let size = largest(&self.dz, self.active.members()).max(1.0);
-            let slope = self.curvature(i);
-            if slope.is_nan() {
-                return Ok(Cycle::LostAccuracy);
-            }
-            if slope < -self.settings.residual * size * size {
-                return Err(LcpError::NotSemidefinite { index: i, curvature: slope });
-            }
-            self.collect_candidates(i, slope, size);
-            let rule = if stalled > STALL * (self.active.members().len() + 4) {
-                TieRule::LeastIndex
-            } else {
-                TieRule::LargestRate
-            };
-            let slack = 0.1 * self.settings.feasibility * self.own_scale();
-            let Some((step, blocker)) = ratio_test(&self.candidates, slack, rule) else {
-                if self.w[i] < -self.settings.feasibility * self.own_scale() {
-                    return self.certify_ray(i, size);
-                }
-                // Minor cycles have made the row feasible, and it depends on the active rows.
-                self.admit(i);
-                return Ok(Cycle::Feasible);
-            };
-            stalled = if step * size > slack { 0 } else { stalled + 1 };
-            self.advance(i, step);
-            if !self.exchange(i, blocker) {
-                return Ok(Cycle::LostAccuracy);
-            }
-            if blocker == Blocker::Driving {
-                return Ok(Cycle::Feasible);
-            }
-        }
-    }
-
-    /// The direction in which only `z_i` and the active `z` move and the active `w` stay zero:
-    /// `dz_i = 1`, `dz_C = -M_CC^-1 M_Ci`, `dw = M dz`.
-    fn direction(&mut self, i: usize) {
-        self.dz.fill(0.0);
-        let (rows, values) = self.m.column(i);
-        for (&j, &value) in rows.iter().zip(values) {
-            if self.active.contains(j) {
-                self.dz[j] = -value;
-            }
-        }
-        self.factor.solve(&mut self.dz);
-        self.dz[i] = 1.0;
-        self.multiply_direction(i);
-        let size = largest(&self.dz, self.active.members()).max(1.0);
-        if largest(&self.dw, self.active.members()) > REFINE * size {
-            let mut correction = vec![0.0; self.dz.len()];
-            for &j in self.active.members() {
-                correction[j] = -self.dw[j];
-            }
-            self.factor.solve(&mut correction);
-            for &j in self.active.members() {
-                self.dz[j] += correction[j];
-            }
-            self.multiply_direction(i);
-        }
-    }
-
-    /// `dz' M dz`, which equals `dw_i` but for the error of the active `dw`: that enters `dw_i` multiplied by the direction's
-    /// size and here by nothing.
-    fn curvature(&self, i: usize) -> f64 {
-        self.dw[i] + self.active.members().iter().map(|&j| self.dz[j] * self.dw[j]).sum::<f64>()
-    }
-
-    /// Curvature at or below which row i depends on the active rows. Rounding in `M` alone, one unit in the last place of
-    /// a unit diagonal, changes `dz' M dz` by the square of the direction's size.
-    fn least_slope(&self, size: f64) -> f64 {
-        (self.settings.singular * size).max(CURVATURE_ROUNDING * size * size)
-    }
-
-    fn multiply_direction(&mut self, i: usize) {
-        self.dw.fill(0.0);
-        self.m.add_column(i, 1.0, &mut self.dw);
-        for &j in self.active.members() {
-            self.m.add_column(j, self.dz[j], &mut self.dw);
-        }
-    }
-
-    /// Everything that falls towards zero: `w_i` of the driving row, active `z`, and `w` of considered rows.
-    fn collect_candidates(&mut self, i: usize, slope: f64, size: f64) {
-        let floor = self.settings.pivot * size;
-        self.candidates.clear();
-        if slope > self.least_slope(size) {
-            self.candidates.push(Candidate { blocker: Blocker::Driving, value: (-self.w[i]).max(0.0), rate: slope });
-        }
-        for &j in self.active.members() {
-            if self.dz[j] < -floor {
-                self.candidates.push(Candidate { blocker: Blocker::Leaves(j), value: self.z[j], rate: -self.dz[j] });
-            }
-        }
-        for j in 0..self.w.len() {
-            if self.dw[j] < -floor && self.role[j] == Role::Considered && j != i && !self.active.contains(j) {
-                self.candidates.push(Candidate {
-                    blocker: Blocker::Enters(j),
-                    value: self.w[j].max(0.0),
-                    rate: -self.dw[j],
-                });
-            }
-        }
-    }
-
-    fn advance(&mut self, i: usize, step: f64) {
-        if step == 0.0 {
-            return;
-        }
-        self.z[i] += step;
-        for &j in self.active.members() {
-            self.z[j] += step * self.dz[j];
-        }
-        for (w, dw) in self.w.iter_mut().zip(&self.dw) {
-            *w += step * dw;
-        }
-    }
-
-    /// One pivot. False if the factor refuses it.
-    fn exchange(&mut self, driving: usize, blocker: Blocker) -> bool {
-        self.counts.pivots += 1;
-        self.counts.minor_cycles += usize::from(blocker != Blocker::Driving);
-        match blocker {
-            Blocker::Leaves(j) => {
-                self.factor.remove(j);
-                self.active.remove(j);
-                self.z[j] = 0.0;
-                true
-            }
-            Blocker::Enters(_) | Blocker::Driving => {
-                let j = if let Blocker::Enters(j) = blocker { j } else { driving };
-                self.w[j] = 0.0;
-                self.insert_or_refactor(j)
-            }
-        }
-    }
-
-    fn insert_or_refactor(&mut self, j: usize) -> bool {
-        let mut inserted = self.factor.insert(&self.m, j).is_ok();
-        if !inserted {
-            self.refactor();
-            inserted = self.factor.insert(&self.m, j).is_ok();
-        }
-        if inserted {
-            self.active.insert(j);
-        }
-        inserted
-    }
-
-    /// Nothing blocks the direction: y = dz then proves that there is no solution, if `M y = 0`, `y >= 0`, `q' y < 0`.
-    /// `y' M y = 0` with `(M y)_j = a` not zero is negative curvature: `y - a e_j` has `-a^2` (unit diagonal).
-    fn certify_ray(&mut self, i: usize, size: f64) -> Result<Cycle, LcpError> {
-        let y: Vec<f64> = self.dz.iter().map(|&value| value.max(0.0)).collect();
-        let image = self.m.multiply_add(&y, &vec![0.0; y.len()]);
-        let worst =
-            (0..y.len()).filter(|&j| self.role[j] != Role::Absent).fold(0.0_f64, |worst, j| worst.max(image[j].abs()));
-        let progress: f64 = y.iter().zip(&self.q).map(|(y, q)| y * q).sum();
-        if worst * worst > self.settings.residual * size * size {
-            return Err(LcpError::NotSemidefinite { index: i, curvature: -worst * worst });
-        }
-        if worst > self.settings.residual * size || progress >= 0.0 {
-            return Ok(Cycle::LostAccuracy);
-        }
-        self.ray = Some(y.iter().zip(&self.scaling.d).map(|(y, d)| y * d).collect());
-        self.residual = self.present_residual();
-        Ok(Cycle::Ray)
-    }
-
-    /// Puts a row with `w_i = 0` and `z_i >= 0` into the factor. Where it depends on the rows already there, the values are
-    /// moved along the null direction, which changes no `w`, until one of them is zero and leaves.
-    fn admit(&mut self, i: usize) {
-        loop {
-            self.direction(i);
-            let size = largest(&self.dz, self.active.members()).max(1.0);
-            if self.curvature(i) > self.least_slope(size) {
-                if self.factor.insert(&self.m, i).is_ok() {
-                    self.active.insert(i);
-                } else {
-                    self.refactor();
-                }
-                return;
-            }
-            let leaving = self
-                .active
-                .members()
-                .iter()
-                .filter(|&&j| self.dz[j] > self.settings.pivot * size)
-                .map(|&j| (self.z[j] / self.dz[j], j))
-                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-                .filter(|&(step, _)| step < self.z[i]);
-            let step = leaving.map_or(self.z[i], |(step, _)| step);
-            for &j in self.active.members() {
-                self.z[j] = take(self.z[j], step * self.dz[j]);
-            }
-            self.z[i] = take(self.z[i], step);
-            let Some((_, j)) = leaving else { return };
-            self.z[j] = 0.0;
-            self.factor.remove(j);
-            self.active.remove(j);
-            if self.z[i] == 0.0 {
-                return;
-            }
-        }
-    }
-
-    fn require_complementary(&self, start: &Start) -> Result<(), StartError> {
-        let tolerance = START_TOLERANCE * self.own_scale();
-        for &index in &start.indices {
-            let (z, w) = (self.z[index], self.w[index]);
-            let unscaled = w / self.scaling.d[index];
-            if w < -tolerance {
-                return Err(StartError::Violated { index, w: unscaled });
-            }
-            if z > tolerance && w > tolerance {
-                return Err(StartError::NotComplementary { index, z: self.z(index), w: unscaled });
-            }
-        }
-        Ok(())
-    }
-
-    /// Recomputes every `w`, moves the active `z` so that the active `w` vanish, and judges the result.
-    fn recompute(&mut self) -> Checked {
-        for z in &mut self.z {
-            *z = z.max(0.0);
-        }
-        self.recompute_w();
-        if self.active_residual() > ROUNDING * self.own_scale() && !self.settle_active() {
-            return Checked::LostAccuracy;
-        }
-        self.residual = self.present_residual();
-        if self.most_violated().is_some_and(|i| !self.active.contains(i)) {
-            Checked::StillViolated
-        } else if self.residual <= self.settings.residual {
-            Checked::Solved
-        } else {
-            Checked::LostAccuracy
-        }
-    }
-
-    /// Largest `|w|` on the active rows, where it should be zero.
-    fn active_residual(&self) -> f64 {
-        largest(&self.w, self.active.members())
-    }
-
-    /// Moves the active `z` towards `w_C = 0`. Where that would take a value below zero, the step ends there and the
-    /// row leaves, as in the inner loop of Lawson and Hanson's NNLS (1974): every step lowers
-    /// `z' M z / 2 + q' z`. False if the factor has lost its meaning.
-    fn settle_active(&mut self) -> bool {
-        loop {
-            let mut correction = vec![0.0; self.z.len()];
-            for &j in self.active.members() {
-                correction[j] = -self.w[j];
-            }
-            self.factor.solve(&mut correction);
-            if self.active.members().iter().any(|&j| correction[j].is_nan()) {
-                return false;
-            }
-            let leaving = self
-                .active
-                .members()
-                .iter()
-                .filter(|&&j| self.z[j] + correction[j] < 0.0)
-                .map(|&j| (self.z[j] / -correction[j], j))
-                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            let step = leaving.map_or(1.0, |(step, _)| step);
-            for &j in self.active.members() {
-                self.z[j] = (self.z[j] + step * correction[j]).max(0.0);
-            }
-            if let Some((_, j)) = leaving {
-                self.counts.pivots += 1;
-                self.counts.minor_cycles += 1;
-                self.z[j] = 0.0;
-                self.factor.remove(j);
-                self.active.remove(j);
-            }
-            self.recompute_w();
-            if leaving.is_none() {
-                return true;
-            }
-        }
-    }
-
-    fn recompute_w(&mut self) {
-        self.w.copy_from_slice(&self.q);
-        for j in 0..self.z.len() {
-            if self.z[j] != 0.0 {
-                self.m.add_column(j, self.z[j], &mut self.w);
-            }
-        }
-    }
-
-    fn refactor(&mut self) {
-        self.counts.refactorisations += 1;
-        self.factor.clear();
-        for j in self.active.members().to_vec() {
-            if self.factor.insert(&self.m, j).is_err() {
-                self.active.remove(j);
-                self.role[j] = Role::Considered;
-            }
-        }
-    }
-
-    /// Forgets everything but which rows are present.
-    fn restart(&mut self) {
-        self.counts.refactorisations += 1;
-        self.factor.clear();
-        self.active.clear();
-        self.z.fill(0.0);
-        for role in &mut self.role {
-            if *role == Role::Considered {
-                *role = Role::Waiting;
-            }
-        }
-        self.recompute_w();
-    }
-
-    fn own_scale(&self) -> f64 {
-        self.scaling.own_scale(self.z.iter().fold(0.0, |size, z| size.max(z.abs())))
-    }
-
-    /// `max |min(z, w)|` over the present rows, in the problem's own scale, from a fresh `w = M z + q`.
-    fn present_residual(&mut self) -> f64 {
-        self.recompute_w();
-        let worst = (0..self.z.len())
-            .filter(|&i| self.role[i] != Role::Absent)
-            .map(|i| self.z[i].min(self.w[i]).abs())
-            .fold(0.0, f64::max);
-        if worst == 0.0 { 0.0 } else { worst / self.own_scale() }
     }
 }
 

@@ -108,7 +108,7 @@ impl ActiveFactor for DenseFactor {
         }
     }
 
-    fn solve(&self, x: &mut [f64]) {
+    fn solve(&self, x: &mut [f64]) -> usize {
         let mut b = self.gather(x);
         self.forward(&mut b);
         for (value, d) in b.iter_mut().zip(&self.d) {
@@ -118,6 +118,8 @@ impl ActiveFactor for DenseFactor {
         for (&i, value) in self.order.iter().zip(b) {
             x[i] = value;
         }
+        let k = self.order.len();
+        k * k
     }
 
     fn clear(&mut self) {

@@ -15,7 +15,7 @@ use crate::matrix::SparseColumns;
 ///
 /// Rows are addressed by their index in the complete matrix, so callers never see an internal order. The
 /// matrix passed to [`ActiveFactor::insert`] must be the same one every time.
-pub trait ActiveFactor: std::fmt::Debug + Send {
+pub trait ActiveFactor: std::fmt::Debug + Send + Sync {
     /// Adds row `i` to C.
     ///
     /// # Errors
@@ -26,8 +26,9 @@ pub trait ActiveFactor: std::fmt::Debug + Send {
     /// Removes row `i` from C; does nothing if it is not there.
     fn remove(&mut self, i: usize);
 
-    /// Solves `M_CC x_C = b_C` in place. `x` is as long as the matrix; entries outside C must be zero and stay so.
-    fn solve(&self, x: &mut [f64]);
+    /// Solves `M_CC x_C = b_C` in place. `x` is as long as the matrix; entries outside C must be zero and stay so. Returns
+    /// the number of stored numbers read, of `L` in either direction and of `D`.
+    fn solve(&self, x: &mut [f64]) -> usize;
 
     /// Empties C.
     fn clear(&mut self);

@@ -141,13 +141,15 @@ impl ActiveFactor for SparseFactor {
         self.rank_one(symbolic.parent(k), pivot);
     }
 
-    fn solve(&self, x: &mut [f64]) {
+    fn solve(&self, x: &mut [f64]) -> usize {
+        let mut read = 0;
         let symbolic = &self.symbolic;
         let mut y: Vec<f64> = symbolic.row_at.iter().map(|&i| x[i]).collect();
         for j in 0..y.len() {
             let yj = y[j];
             if yj != 0.0 {
                 let column = symbolic.column(j);
+                read += column.len();
                 for (&i, l) in symbolic.rows[column.clone()].iter().zip(&self.l[column]) {
                     y[i as usize] -= l * yj;
                 }
@@ -156,6 +158,7 @@ impl ActiveFactor for SparseFactor {
         for j in (0..y.len()).rev() {
             if self.active[j] {
                 let column = symbolic.column(j);
+                read += column.len() + 1;
                 let dot: f64 =
                     symbolic.rows[column.clone()].iter().zip(&self.l[column]).map(|(&i, l)| l * y[i as usize]).sum();
                 y[j] = y[j] / self.d[j] - dot;
@@ -164,6 +167,7 @@ impl ActiveFactor for SparseFactor {
         for (&i, y) in symbolic.row_at.iter().zip(y) {
             x[i] = y;
         }
+        read
     }
 
     fn clear(&mut self) {

@@ -21,7 +21,7 @@ impl Method for Dantzig {
             solver.start_from(start)?;
         }
         let rows: Vec<usize> = (0..problem.len()).collect();
-        solver.add_rows(&rows);
+        solver.add_rows(&rows)?;
         let status = solver.solve()?;
         Ok(solver.solution(status))
     }

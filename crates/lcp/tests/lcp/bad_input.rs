@@ -6,6 +6,7 @@ use crate::{
 };
 use drystone_lcp::{
     Dantzig, LcpError, Lemke, Method, Problem, Settings, Solver, SparseColumns, Start, StartError, Status,
+    cone::Columns,
 };
 use rand::Rng;
 
@@ -163,4 +164,40 @@ fn problems_without_rows_or_without_violations() {
         );
     }
     assert!(Solver::new(problem(&[], vec![]), Settings::default()).is_ok());
+}
+
+/// What is refused changes nothing: the next solve answers as if it had not been asked for.
+#[test]
+fn a_solver_refuses_rows_values_and_snapshots_that_are_not_its_own() {
+    let make = || Solver::new(problem(&[2.0, 1.0, 1.0, 2.0], vec![-2.0, -3.0]), Settings::default()).unwrap();
+    let (mut solver, other) = (make(), make());
+    solver.add_rows(&[1]).unwrap();
+    solver.solve().unwrap();
+    let out = |row| Err(LcpError::RowOutOfRange { row, n: 2 });
+    assert_eq!(solver.add_rows(&[0, 2]), out(2));
+    assert_eq!(solver.remove_rows(&[1, 7]), out(7));
+    assert_eq!(solver.set_q_at(&[2], &[0.0]), out(2));
+    assert_eq!(solver.set_q_at(&[0, 1], &[0.0]), Err(LcpError::ValuesForRows { rows: 2, values: 1 }));
+    assert_eq!(solver.set_q(&[0.0]), Err(LcpError::Shape { rows: 2, columns: 2, q: 1 }));
+    assert!(matches!(solver.set_q(&[5.0, f64::NAN]), Err(LcpError::VectorNotFinite { index: 1, .. })));
+    assert!(matches!(solver.set_q_at(&[0], &[f64::INFINITY]), Err(LcpError::VectorNotFinite { index: 0, .. })));
+    assert_eq!(solver.restore(&other.snapshot()), Err(LcpError::ForeignSnapshot));
+    assert_eq!(solver.rows(), [1]);
+    assert_eq!(solver.problem().q(), [-2.0, -3.0]);
+    assert_eq!(solver.solve(), Ok(Status::Solved));
+    assert!((solver.z(1) - 1.5).abs() < 1e-15);
+}
+
+#[test]
+fn generators_that_do_not_fit_are_named() {
+    let g = Columns::new(2, &[0, 1], &[1], &[1.0]).unwrap();
+    let make = |w: &[f64], h: &[f64]| Problem::from_generators(&g, w, h).unwrap_err();
+    let shape = LcpError::GeneratorShape { rows: 2, inverse_masses: 1, loads: 2 };
+    assert_eq!(make(&[1.0], &[0.0, 0.0]), shape);
+    assert_eq!(make(&[1.0, -1.0], &[0.0, 0.0]), LcpError::InverseMass { row: 1, value: -1.0 });
+    assert!(matches!(make(&[f64::NAN, 1.0], &[0.0, 0.0]), LcpError::InverseMass { row: 0, .. }));
+    assert!(matches!(make(&[1.0, 1.0], &[0.0, f64::NAN]), LcpError::LoadNotFinite { row: 1, .. }));
+    let huge = Columns::new(1, &[0, 1], &[0], &[1e200]).unwrap();
+    let error = Problem::from_generators(&huge, &[1.0], &[0.0]).unwrap_err();
+    assert!(matches!(error, LcpError::MatrixNotFinite { row: 0, column: 0, .. }));
 }

@@ -1,7 +1,7 @@
 //! Contact problems built by hand: stacked boxes, whose face contacts make M singular and every force tie.
 
 use crate::{problems::problem, verify::solve_both};
-use drystone_lcp::{Problem, Status};
+use drystone_lcp::{Problem, Status, cone::Columns};
 
 /// A unit generator of one contact point: the planar wrench (x, y, torque) on the upper block; the lower block gets its
 /// reaction.
@@ -63,6 +63,22 @@ impl Wall {
                 generators.push(Generator { upper, lower, on_upper, on_lower });
             }
         }
+    }
+
+    /// G, W and h of the same problem: three rows a block.
+    pub fn columns(&self) -> (Columns, Vec<f64>, Vec<f64>) {
+        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        for generator in self.generators() {
+            let lower = generator.lower.map(|block| (block, generator.on_lower));
+            for (block, wrench) in [(generator.upper, generator.on_upper)].into_iter().chain(lower) {
+                indices.extend((0..3).map(|k| 3 * block + k));
+                data.extend(wrench);
+            }
+            indptr.push(indices.len());
+        }
+        let blocks = self.centres.len();
+        let g = Columns::new(3 * blocks, &indptr, &indices, &data).expect("test data is valid");
+        (g, [1.0, 1.0, 6.0].repeat(blocks), [0.0, 1.0, 0.0].repeat(blocks))
     }
 
     /// `M = G' W G` and `q = G' W F`, W the inverse masses (1, 1, 6), F gravity.

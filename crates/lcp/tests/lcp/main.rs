@@ -8,6 +8,7 @@ mod masked;
 mod problems;
 mod random;
 mod reuse;
+mod sequences;
 mod textbook;
 mod verify;
 mod worst_case;

@@ -35,13 +35,13 @@ fn random_walk(rng: &mut impl Rng, problem: Problem, steps: usize, context: &str
         let context = format!("{context}, step {step}");
         if rng.random_bool(0.3) || present.len() == n {
             let (snapshot, rows) = saved[rng.random_range(0..saved.len())].clone();
-            solver.restore(&snapshot);
+            solver.restore(&snapshot).unwrap();
             present = rows;
         } else {
             let mut rest: Vec<usize> = (0..n).filter(|i| !present.contains(i)).collect();
             rest.shuffle(rng);
             rest.truncate(rng.random_range(1..=4));
-            solver.add_rows(&rest);
+            solver.add_rows(&rest).unwrap();
             present.extend(rest);
         }
         let status = solver.solve().unwrap_or_else(|error| panic!("{context}: {error}"));
@@ -50,7 +50,7 @@ fn random_walk(rng: &mut impl Rng, problem: Problem, steps: usize, context: &str
             saved.push((solver.snapshot(), present.clone()));
         } else {
             let (snapshot, rows) = saved[rng.random_range(0..saved.len())].clone();
-            solver.restore(&snapshot);
+            solver.restore(&snapshot).unwrap();
             present = rows;
         }
     }
@@ -112,7 +112,7 @@ fn pivots_of_growing(wall: &Wall) -> (usize, usize) {
     let (mut present, mut cold) = (Vec::new(), 0);
     for rows in rows_by_block(wall) {
         present.extend(&rows);
-        solver.add_rows(&rows);
+        solver.add_rows(&rows).unwrap();
         assert_eq!(solver.solve(), Ok(Status::Solved));
         let fresh = Dantzig.solve(&problem.principal(&present), None, &Settings::default()).unwrap();
         assert_eq!(fresh.status, Status::Solved);

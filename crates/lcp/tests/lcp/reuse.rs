@@ -148,7 +148,7 @@ fn a_solver_goes_on_after_a_refused_start() {
     let mut solver = Solver::new(two_rows(), Settings::default()).unwrap();
     for start in [Start { indices: vec![0], z: vec![0.5] }, Start { indices: vec![7], z: vec![0.5] }] {
         assert!(matches!(solver.start_from(&start), Err(LcpError::Start(_))));
-        solver.add_rows(&[0, 1]);
+        solver.add_rows(&[0, 1]).unwrap();
         assert_eq!(solver.solve(), Ok(Status::Solved));
         // By hand: both rows active, 2 z1 + z2 = 2, z1 + 2 z2 = 3.
         assert!((solver.z(0) - 1.0 / 3.0).abs() < 1e-12 && (solver.z(1) - 4.0 / 3.0).abs() < 1e-12);

@@ -1,0 +1,64 @@
+//! The problem of generators: forces `G f` with `f >= 0` on bodies of known mass.
+
+use crate::{cone::Columns, error::LcpError, matrix::SparseColumns, problem::Problem};
+
+impl Problem {
+    /// `M = G' W G` and `q = -G' W h`: of all `f >= 0` the solution's `G f` is the nearest to `h` in the norm of W.
+    ///
+    /// For contacts, `G` (rows x n) holds the wrenches of unit forces, W the inverse masses and inverse moments of
+    /// inertia of the bodies (its diagonal, one a row; zero for what cannot move), and `-h` the applied wrench: then `w` is the
+    /// acceleration along each generator, and `w = 0` where the forces balance the loads. Equation 8 of Loomis
+    /// and Balkcom, Computation reuse for rigid-body dynamics (2006).
+    ///
+    /// # Errors
+    /// [`LcpError::GeneratorShape`], [`LcpError::InverseMass`], [`LcpError::LoadNotFinite`]; as [`Self::new`] if a
+    /// product is too large for a number.
+    pub fn from_generators(g: &Columns, inverse_mass: &[f64], h: &[f64]) -> Result<Self, LcpError> {
+        require_fit(g, inverse_mass, h)?;
+        let n = g.len();
+        let mut by_row: Vec<Vec<(usize, f64)>> = vec![Vec::new(); g.rows()];
+        for j in 0..n {
+            for &(row, value) in g.column(j as u32) {
+                by_row[row as usize].push((j, value));
+            }
+        }
+        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        let mut sum = vec![0.0; n];
+        let mut seen = vec![usize::MAX; n];
+        for j in 0..n {
+            let start = indices.len();
+            for &(row, value) in g.column(j as u32) {
+                for &(i, other) in &by_row[row as usize] {
+                    if std::mem::replace(&mut seen[i], j) != j {
+                        sum[i] = 0.0;
+                        indices.push(i);
+                    }
+                    // The two values first: the product is then the same for [i, j] and [j, i].
+                    sum[i] += other * value * inverse_mass[row as usize];
+                }
+            }
+            indices[start..].sort_unstable();
+            data.extend(indices[start..].iter().map(|&i| sum[i]));
+            indptr.push(indices.len());
+        }
+        let along = |j: usize| -> f64 {
+            let column = g.column(j as u32).iter();
+            column.map(|&(row, value)| value * inverse_mass[row as usize] * h[row as usize]).sum()
+        };
+        Self::new(SparseColumns::new(n, indptr, indices, data)?, (0..n).map(|j| -along(j)).collect())
+    }
+}
+
+fn require_fit(g: &Columns, inverse_mass: &[f64], h: &[f64]) -> Result<(), LcpError> {
+    let (inverse_masses, loads) = (inverse_mass.len(), h.len());
+    if inverse_masses != g.rows() || loads != g.rows() {
+        return Err(LcpError::GeneratorShape { rows: g.rows(), inverse_masses, loads });
+    }
+    if let Some(row) = inverse_mass.iter().position(|value| !value.is_finite() || *value < 0.0) {
+        return Err(LcpError::InverseMass { row, value: inverse_mass[row] });
+    }
+    if let Some(row) = h.iter().position(|value| !value.is_finite()) {
+        return Err(LcpError::LoadNotFinite { row, value: h[row] });
+    }
+    Ok(())
+}
