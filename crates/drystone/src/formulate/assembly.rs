@@ -10,7 +10,7 @@ use crate::{
     scene::{Body, Scene},
 };
 use drystone_lcp::{
-    Problem, SparseColumns,
+    Problem,
     cone::{Columns, ConeSolver},
 };
 
@@ -130,36 +130,28 @@ impl Assembly {
     /// `A = G' M^-1 G` (1/kg) and `b = G' M^-1 F` (m/s^2) of the complete assembly. Equation 8 of Loomis and
     /// Balkcom: a sub-assembly's problem is the principal sub-problem on [`Self::rows`] of its blocks.
     pub fn problem(&self) -> Problem {
-        let n = self.generators.len();
-        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
-        let mut sum = vec![0.0; n];
-        let mut seen = vec![usize::MAX; n];
-        for j in 0..n {
-            let start = indices.len();
-            for wrench in &self.generators[j].wrenches {
-                let inverse_mass = self.inverse_mass[wrench.block];
-                for &i in &self.generators_on[wrench.block] {
-                    if seen[i] != j {
-                        seen[i] = j;
-                        sum[i] = 0.0;
-                        indices.push(i);
-                    }
-                    sum[i] += self.coupling(i, wrench.block, wrench.value, inverse_mass);
-                }
-            }
-            indices[start..].sort_unstable();
-            data.extend(indices[start..].iter().map(|&i| sum[i]));
-            indptr.push(indices.len());
-        }
-        let b = self.generators.iter().map(|generator| self.free_acceleration(generator)).collect();
-        SparseColumns::new(n, indptr, indices, data)
-            .and_then(|a| Problem::new(a, b))
+        let inverse_mass = self.inverse_mass.as_flattened();
+        Problem::from_generators(&self.columns(), inverse_mass, &self.balance())
             .expect("a validated scene has finite masses, positions and directions")
     }
 
     /// Static equilibrium `G f = -F`, `f >= 0` of the complete assembly, without any block yet. Imbalance is measured in
     /// each block's own weight, moments with its radius of gyration as the arm.
     pub fn equilibrium(&self) -> ConeSolver {
+        let [gx, gy] = self.gravity;
+        let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+        let unit = |block: usize| {
+            let [per_mass, _, per_inertia] = self.inverse_mass[block];
+            let weight = gravity / per_mass;
+            [weight, weight, weight * (per_mass / per_inertia).sqrt()]
+        };
+        let units: Vec<f64> = (0..self.blocks()).flat_map(unit).collect();
+        ConeSolver::new(self.columns(), &self.balance(), &units)
+            .expect("a validated scene has finite masses, positions and directions")
+    }
+
+    /// The generators as the columns of G, three rows a block.
+    fn columns(&self) -> Columns {
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for generator in &self.generators {
             for wrench in &generator.wrenches {
@@ -171,39 +163,18 @@ impl Assembly {
             }
             indptr.push(indices.len());
         }
-        let [gx, gy] = self.gravity;
-        let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-        let unit = |block: usize| {
-            let [per_mass, _, per_inertia] = self.inverse_mass[block];
-            let weight = gravity / per_mass;
-            [weight, weight, weight * (per_mass / per_inertia).sqrt()]
-        };
-        let blocks = 0..self.blocks();
-        let loads: Vec<f64> = blocks.clone().flat_map(|block| self.applied(block).map(|load| -load)).collect();
-        let units: Vec<f64> = blocks.flat_map(unit).collect();
         Columns::new(3 * self.blocks(), &indptr, &indices, &data)
-            .and_then(|g| ConeSolver::new(g, &loads, &units))
             .expect("a validated scene has finite masses, positions and directions")
+    }
+
+    /// What the contact forces have to balance: `-F`, three entries a block.
+    fn balance(&self) -> Vec<f64> {
+        (0..self.blocks()).flat_map(|block| self.applied(block).map(|load| -load)).collect()
     }
 
     /// Rows of [`Self::equilibrium`] that are a block's x force, y force and moment.
     pub fn equilibrium_rows(block: usize) -> [usize; 3] {
         [3 * block, 3 * block + 1, 3 * block + 2]
-    }
-
-    /// `g_i' M^-1 g_j` on one block.
-    fn coupling(&self, i: usize, block: usize, value: [f64; 3], inverse_mass: [f64; 3]) -> f64 {
-        let on_block = self.generators[i].wrenches.iter().filter(|wrench| wrench.block == block);
-        on_block.map(|wrench| (0..3).map(|k| wrench.value[k] * value[k] * inverse_mass[k]).sum::<f64>()).sum()
-    }
-
-    /// `g' M^-1 F`.
-    fn free_acceleration(&self, generator: &Generator) -> f64 {
-        let of = |block: usize, value: [f64; 3]| -> f64 {
-            let (applied, inverse_mass) = (self.applied(block), self.inverse_mass[block]);
-            (0..3).map(|k| value[k] * inverse_mass[k] * applied[k]).sum()
-        };
-        generator.wrenches.iter().map(|wrench| of(wrench.block, wrench.value)).sum()
     }
 
     /// Rows of the complete problem that belong to a sub-assembly: generators between its blocks, and between them
