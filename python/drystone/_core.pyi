@@ -13,7 +13,9 @@ __all__ = [
     "DrystoneError",
     "Generators",
     "LcpError",
+    "LcpSnapshot",
     "LcpSolution",
+    "LcpSolver",
     "Plan",
     "Scene",
     "SceneError",
@@ -187,11 +189,49 @@ class LcpSolution:
     ray: NDArray[np.float64] | None
     refactorisations: int
 
+@final
+class LcpSnapshot: ...
+
+@final
+class LcpSolver:
+    """M in compressed columns. `solve` returns complete vectors, z = 0 on rows not present."""
+
+    def __new__(
+        cls,
+        indptr: NDArray[np.int64],
+        indices: NDArray[np.int64],
+        data: NDArray[np.float64],
+        q: NDArray[np.float64],
+        pivot_limit: int | None = None,
+    ) -> LcpSolver: ...
+    @staticmethod
+    def from_generators(
+        indptr: NDArray[np.int64],
+        indices: NDArray[np.int64],
+        data: NDArray[np.float64],
+        inverse_mass: NDArray[np.float64],
+        h: NDArray[np.float64],
+        pivot_limit: int | None = None,
+    ) -> LcpSolver: ...
+    def add_rows(self, rows: NDArray[np.int64]) -> None: ...
+    def remove_rows(self, rows: NDArray[np.int64]) -> None: ...
+    def set_q(self, q: NDArray[np.float64]) -> None: ...
+    def set_q_at(self, rows: NDArray[np.int64], q: NDArray[np.float64]) -> None: ...
+    def solve(self) -> LcpSolution: ...
+    def snapshot(self) -> LcpSnapshot: ...
+    def restore(self, snapshot: LcpSnapshot) -> None: ...
+    def rows(self) -> list[int]: ...
+    def q(self) -> list[float]: ...
+    def counts(self) -> tuple[int, int, int, int, int, int]:
+        """Major cycles, minor cycles, pivots, refactorisations, factor rows, entries solved."""
+
 def catalogue() -> list[tuple[str, str, list[tuple[str, str, bool, float]]]]:
     """Built-in scenes: (name, summary, [(parameter, summary, whole number or not, default)])."""
 
 def generators(scene: Scene) -> Generators: ...
-def check(scene: Scene, blocks: Sequence[str] | None = None) -> Verdict: ...
+def check(
+    scene: Scene, blocks: Sequence[str] | None = None, method: str = "equilibrium"
+) -> Verdict: ...
 def plan(
     scene: Scene,
     test: str | Callable[[list[int], int], tuple[bool, int]],

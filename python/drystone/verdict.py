@@ -156,11 +156,17 @@ class Verdict:
         return pictures.svg(pictures.verdict_figure(self))
 
 
-def check(scene: Scene, blocks: Iterable[str] | None = None) -> Verdict:
+def check(
+    scene: Scene, blocks: Iterable[str] | None = None, method: str = "equilibrium"
+) -> Verdict:
     """Compute the contact forces and accelerations of `scene` at rest.
 
     `blocks` names the movable bodies of a sub-assembly; fixed bodies are always there. By default
     every body is. Raises SceneError for an unknown name or bodies that overlap.
+
+    `method` "equilibrium" looks for forces that balance the loads, and solves the complementarity
+    problem for the accelerations only if there are none; "lcp" solves it in any case, by Dantzig's
+    method. The verdict is the same; where a structure is redundant the forces may differ.
 
     >>> import drystone as ds
     >>> verdict = ds.check(ds.scenes.column(4))
@@ -170,7 +176,7 @@ def check(scene: Scene, blocks: Iterable[str] | None = None) -> Verdict:
     if isinstance(blocks, str):
         raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
     names = None if blocks is None else list(blocks)
-    return Verdict._of(_core.check(scene._core, names), scene)
+    return Verdict._of(_core.check(scene._core, names, method), scene)
 
 
 def counted(number: int, thing: str) -> str:

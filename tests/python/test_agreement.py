@@ -35,6 +35,7 @@ STANDS = 1e-9
 FALLS = 1e-6
 """A block that overhangs its edge by a millionth of its width. Between the two: not decided."""
 ASSEMBLIES = 1000
+TESTS = ("lcp", "reuse", "reuse-dantzig")
 
 
 def margin(scene: ds.Scene) -> float:
@@ -151,6 +152,11 @@ def test_verdicts_agree_with_the_linear_program_on_a_thousand_assemblies() -> No
         assert verdict.residual <= 1e-9
         if decided:
             assert verdict.stable == (unbalanced < STANDS), f"assembly {number}: {unbalanced:.1e}"
+            assert ds.check(scene, method="lcp").stable == verdict.stable, f"assembly {number}"
+        if verdict.stable:
+            plans = [ds.plan(scene, test, node_limit=20, shortcuts=False) for test in TESTS]
+            visited = [[(record.size, record.stable) for record in p.records] for p in plans]
+            assert visited[0] == visited[1] == visited[2], f"assembly {number}"
         seen[kind, verdict.stable if decided else None] += 1
     assert sum(count for (_, stable), count in seen.items() if stable is None) < ASSEMBLIES // 50
     # Neither answer is rare in any kind.

@@ -220,7 +220,7 @@ def test_help_answers_at_once() -> None:
 def test_an_interrupt_hands_back_the_best_so_far(test: str) -> None:
     command = [sys.executable, "-c", "from drystone.cli import main; main()"]
     process = subprocess.Popen(
-        [*command, "plan", "column:2000", "--test", test, "--json"],
+        [*command, "plan", "column:2000", "--test", test, "--no-shortcuts", "--json"],
         # A shell may start its background jobs with interrupts ignored.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
         stdout=subprocess.PIPE,

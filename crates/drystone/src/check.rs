@@ -42,12 +42,32 @@ pub struct Verdict {
 /// # Errors
 /// [`SceneError`] for overlapping blocks and unknown names.
 pub fn check(scene: &Scene, blocks: Option<&[String]>) -> Result<Verdict, SceneError> {
+    check_by(scene, blocks, Route::Equilibrium)
+}
+
+/// How a verdict is reached. Both routes give the same one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Route {
+    /// Contact forces that balance the loads; accelerations by the complementarity problem only if there are none.
+    Equilibrium,
+    /// The complementarity problem in any case, by Dantzig's method from scratch.
+    Complementarity,
+}
+
+/// [`check`] by a route of choice.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_by(scene: &Scene, blocks: Option<&[String]>, route: Route) -> Result<Verdict, SceneError> {
     let assembly = Assembly::new(scene)?;
     let set = match blocks {
         None => BlockSet::full(assembly.blocks()),
         Some(names) => named_blocks(scene, &assembly, names)?,
     };
-    Ok(check_blocks(&assembly, &set))
+    Ok(match route {
+        Route::Equilibrium => check_blocks(&assembly, &set),
+        Route::Complementarity => solve_complementarity(&assembly, &set, Counts::default()),
+    })
 }
 
 fn named_blocks(scene: &Scene, assembly: &Assembly, names: &[String]) -> Result<BlockSet, SceneError> {
@@ -84,24 +104,28 @@ fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSo
 /// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
 pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
     let (found, equilibrium) = equilibrium_of(assembly, blocks);
-    let rows = assembly.rows(blocks);
     if found == Membership::Inside {
         let (counts, residual) = (equilibrium.counts(), equilibrium.residual());
-        return verdict(assembly, blocks, &rows, |j| equilibrium.f(j), Status::Solved, counts, residual);
+        return verdict(assembly, blocks, |j| equilibrium.f(j), Status::Solved, counts, residual);
     }
+    solve_complementarity(assembly, blocks, equilibrium.counts())
+}
+
+/// Solves the complementarity problem from scratch; `spent` is work done before.
+fn solve_complementarity(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
     let mut solver = Solver::new(assembly.problem(), Settings::default())
         .expect("A = G' M^-1 G is symmetric with a positive diagonal");
-    solver.add_rows(&rows);
+    solver.add_rows(&assembly.rows(blocks)).expect("rows of this assembly's problem");
     let status = solver.solve().unwrap_or(Status::NumericalTrouble);
-    let counts = equilibrium.counts() + solver.counts();
-    verdict(assembly, blocks, &rows, |j| solver.z(j), status, counts, solver.residual())
+    let mut found = verdict(assembly, blocks, |j| solver.z(j), status, spent + solver.counts(), solver.residual());
+    found.stable = status == Status::Solved && stands_under(assembly, blocks, |j| solver.z(j));
+    found
 }
 
 /// Reads a verdict from the magnitudes of the generators.
 fn verdict(
     assembly: &Assembly,
     blocks: &BlockSet,
-    rows: &[usize],
     f: impl Fn(usize) -> f64,
     status: Status,
     counts: Counts,
@@ -121,7 +145,7 @@ fn verdict(
         accelerations,
         falling,
         forces: assembly
-            .contact_forces(rows, f)
+            .contact_forces(&assembly.rows(blocks), f)
             .into_iter()
             .map(|force| (assembly.contacts()[force.contact].clone(), force))
             .collect(),

@@ -11,7 +11,10 @@ use drystone::{
     plan::{self as core, Limits, Monitor, PlanError, Progress, StabilityTest, Test, TestOutcome},
 };
 use numpy::PyArray1;
-use pyo3::{exceptions::PyValueError, prelude::*};
+use pyo3::{
+    exceptions::{PyKeyboardInterrupt, PyValueError},
+    prelude::*,
+};
 use std::time::{Duration, Instant};
 
 #[pyclass(frozen, get_all, module = "drystone._core")]
@@ -87,11 +90,13 @@ struct Callback {
 impl StabilityTest for Callback {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         Python::attach(|py| {
-            let answer = self.function.call1(py, (blocks.iter().collect::<Vec<_>>(), added))?;
-            answer.extract::<(bool, usize)>(py)
+            let answer = self.function.call1(py, (blocks.iter().collect::<Vec<_>>(), added));
+            match answer.and_then(|answer| answer.extract::<(bool, usize)>(py)) {
+                Ok((stands, pivots)) => Ok(TestOutcome { stands, pivots }),
+                Err(error) if error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(PlanError::Interrupted),
+                Err(error) => Err(PlanError::External(Box::new(error))),
+            }
         })
-        .map(|(stands, pivots)| TestOutcome { stands, pivots })
-        .map_err(|error| PlanError::External(Box::new(error)))
     }
 }
 
@@ -116,8 +121,13 @@ impl Monitor for Watch {
             }
             let Some(function) = &self.progress else { return true };
             let Progress { tests, placed, blocks } = progress;
-            self.error = function.call1(py, (tests, placed, blocks)).err();
-            self.error.is_none()
+            let error = match function.call1(py, (tests, placed, blocks)) {
+                Ok(_) => return true,
+                Err(error) => error,
+            };
+            // Ctrl-C within the callback: the best so far is the answer, as above.
+            self.error = Some(error).filter(|error| !error.is_instance_of::<PyKeyboardInterrupt>(py));
+            false
         })
     }
 }
@@ -159,7 +169,9 @@ fn named_test(name: &str) -> PyResult<Test> {
         "lcp" => Ok(Test::Lcp),
         "reuse" => Ok(Test::Reuse),
         "reuse-dantzig" => Ok(Test::ReuseDantzig),
-        other => Err(PyValueError::new_err(format!("unknown stability test \"{other}\": give \"reuse\", \"reuse-dantzig\" or \"lcp\""))),
+        other => Err(PyValueError::new_err(format!(
+            "unknown stability test \"{other}\": give \"reuse\", \"reuse-dantzig\" or \"lcp\""
+        ))),
     }
 }
 

@@ -1,9 +1,12 @@
 //! `check` and its answer.
 
 use crate::{arrays::matrix, errors::scene_error, scene::Scene};
-use drystone::{Scene as CoreScene, check as core_check};
+use drystone::{
+    Scene as CoreScene,
+    check::{Route, check_by},
+};
 use numpy::PyArray2;
-use pyo3::prelude::*;
+use pyo3::{exceptions::PyValueError, prelude::*};
 use std::time::{Duration, Instant};
 
 /// The force that body `a` exerts on body `b` at one contact point, in newtons.
@@ -67,9 +70,17 @@ impl Verdict {
 }
 
 #[pyfunction]
-#[pyo3(signature = (scene, blocks=None))]
-pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>) -> PyResult<Verdict> {
+#[pyo3(signature = (scene, blocks=None, method="equilibrium"))]
+pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>, method: &str) -> PyResult<Verdict> {
+    let route = match method {
+        "equilibrium" => Route::Equilibrium,
+        "lcp" => Route::Complementarity,
+        other => {
+            let message = format!("unknown method \"{other}\": give \"equilibrium\" or \"lcp\"");
+            return Err(PyValueError::new_err(message));
+        }
+    };
     let start = Instant::now();
-    let verdict = py.detach(|| core_check(&scene.core, blocks.as_deref())).map_err(|error| scene_error(&error))?;
+    let verdict = py.detach(|| check_by(&scene.core, blocks.as_deref(), route)).map_err(|error| scene_error(&error))?;
     Verdict::new(py, &scene.core, &verdict, start.elapsed())
 }

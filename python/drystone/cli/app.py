@@ -91,6 +91,9 @@ def plan(
     time_limit: Annotated[
         float | None, typer.Option(min=0.0, help="At most so many seconds.")
     ] = None,
+    shortcuts: Annotated[
+        bool, typer.Option(help="Let a collapse answer later tests; off, as in the paper.")
+    ] = True,
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
@@ -125,7 +128,7 @@ def plan(
         raise InputError(f"{scene} is no folder: --engine, --workers and --address are for folders")
     from drystone.cli import plan as command
 
-    return command.run(scene, test.value, node_limit, time_limit, as_json, output)
+    return command.run(scene, test.value, node_limit, time_limit, shortcuts, as_json, output)
 
 
 bench_app = typer.Typer(help="Repeat published measurements.", no_args_is_help=True)

@@ -15,6 +15,7 @@ def run(
     test: str,
     node_limit: int | None,
     time_limit: float | None,
+    shortcuts: bool,
     as_json: bool,
     output: Path | None,
 ) -> int:
@@ -22,7 +23,7 @@ def run(
     picture = picture_path(output)
     scene = load_scene(scene_name)
     with PlanProgress() as progress:
-        found = plan(scene, test, node_limit, time_limit, progress)
+        found = plan(scene, test, node_limit, time_limit, progress, shortcuts)
     if picture is not None:
         with reporting_files():
             found.draw(picture)

@@ -171,7 +171,11 @@ pub fn plan_with(
     let whole = check_blocks(assembly, &BlockSet::full(assembly.blocks()));
     let whole_time = start.elapsed();
     let mut search = Search::new(assembly, limits, start);
-    let outcome = if whole.stable { search.run(test, monitor)? } else { Outcome::WholeFalls };
+    let outcome = match whole.stable.then(|| search.run(test, monitor)) {
+        None => Outcome::WholeFalls,
+        Some(Err(PlanError::Interrupted)) => Outcome::Interrupted,
+        Some(ended) => ended?,
+    };
     let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };
     let exhausted = matches!(outcome, Outcome::NoOrder);
     Ok(Plan {

@@ -35,6 +35,9 @@ pub enum PlanError {
         /// What the test said.
         reason: String,
     },
+    /// The user interrupted a test from outside this crate; the search ends with the best so far.
+    #[error("the stability test was interrupted")]
+    Interrupted,
     /// A test from outside this crate failed with its own error.
     #[error("the stability test failed: {0}")]
     External(#[source] Box<dyn std::error::Error + Send + Sync>),
@@ -116,7 +119,7 @@ impl<'a> FromScratch<'a> {
 impl StabilityTest for FromScratch<'_> {
     fn test(&mut self, blocks: &BlockSet, _added: usize) -> Result<TestOutcome, PlanError> {
         self.solver.clear();
-        self.solver.add_rows(&self.assembly.rows(blocks));
+        self.solver.add_rows(&self.assembly.rows(blocks)).expect("rows of this assembly's problem");
         self.tested.clone_from(blocks);
         solve(self.assembly, &mut self.solver, blocks)
     }
@@ -227,10 +230,10 @@ impl StabilityTest for ReuseDantzig<'_> {
         if !self.at_current
             && let Some(current) = self.path.last()
         {
-            self.solver.restore(current);
+            self.solver.restore(current).expect("a snapshot of this solver");
         }
         self.at_current = false;
-        self.solver.add_rows(&self.assembly.rows_added(blocks, added));
+        self.solver.add_rows(&self.assembly.rows_added(blocks, added)).expect("rows of this assembly's problem");
         self.tested.clone_from(blocks);
         solve(self.assembly, &mut self.solver, blocks)
     }
