@@ -13,13 +13,15 @@ first two indices of three:
 >>> larger = lcp.solve(M, np.array([-5.0, -6.0, -4.0]), start=solution.start([0, 1]))
 >>> larger.status, larger.major_cycles
 ('solved', 1)
+
+For a long sequence of related problems there is `Solver`, which keeps its factor.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -28,8 +30,19 @@ from drystone._core import LcpError, StartError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+    from scipy import sparse
 
-__all__ = ["METHODS", "LcpError", "Solution", "Start", "StartError", "solve"]
+__all__ = [
+    "METHODS",
+    "Counts",
+    "LcpError",
+    "Snapshot",
+    "Solution",
+    "Solver",
+    "Start",
+    "StartError",
+    "solve",
+]
 
 METHODS = ("dantzig", "lemke")
 """The methods `solve` knows: see there."""
@@ -65,12 +78,12 @@ class Start:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Solution:
-    """The answer of `solve`."""
+    """The answer of `solve` and of `Solver.solve`."""
 
     z: NDArray[np.float64]
-    """(n,)"""
+    """(n,). Zero on the rows of a `Solver` that are not present."""
     w: NDArray[np.float64]
-    """(n,), M z + q."""
+    """(n,), M z + q, on rows that are not present too."""
     status: str
     """"solved" (the residual is at most 1e-9), "no_solution" (`ray` proves it), "ray_termination"
     (Lemke's method ended on a ray that proves nothing), "pivot_limit" or "numerical_trouble"."""
@@ -82,20 +95,30 @@ class Solution:
     """The largest |min(z_i, w_i)| with M scaled to a unit diagonal, over the largest entry of the
     scaled z and q."""
     ray: NDArray[np.float64] | None
-    """(n,). With "no_solution" a proof of it: ray >= 0, M' ray <= 0 and q' ray < 0."""
+    """(n,). With "no_solution" a proof of it: ray >= 0, M' ray <= 0 and q' ray < 0 (of a `Solver`:
+    on the rows present, and zero elsewhere)."""
+    rows: NDArray[np.int64]
+    """Rows that were present, ascending: all n of them but for a `Solver`."""
+
+    def restricted(self) -> Solution:
+        """The solution of M[rows][:, rows], q[rows]: the vectors on `rows` only."""
+        ray = None if self.ray is None else self.ray[self.rows]
+        z, w, rows = self.z[self.rows], self.w[self.rows], np.arange(self.rows.size)
+        return replace(self, z=z, w=w, ray=ray, rows=rows)
 
     def start(self, indices: Sequence[int] | NDArray[np.int64]) -> Start:
         """This solution as a start for a larger problem, whose `indices` this problem has."""
         return Start(np.asarray(indices), self.z)
 
     def recheck(self, M: Any, q: ArrayLike) -> float:
-        """The `residual`, computed again from `M`, `q` and z alone."""
+        """The `residual`, computed again from `M`, `q` and z alone, on `rows`."""
         diagonal = np.asarray(M.diagonal(), dtype=np.float64)
         unit = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
         q = np.asarray(q, dtype=np.float64)
         z, w = self.z / unit, unit * (M @ self.z + q)
+        z, w, q = z[self.rows], w[self.rows], (unit * q)[self.rows]
         worst = np.max(np.abs(np.minimum(z, w)), initial=0.0)
-        scale = max(np.max(np.abs(unit * q), initial=0.0), np.max(np.abs(z), initial=0.0))
+        scale = max(np.max(np.abs(q), initial=0.0), np.max(np.abs(z), initial=0.0))
         return float(worst / scale) if worst > 0 else 0.0
 
 
@@ -122,8 +145,7 @@ def solve(
         raise StartError(f"start must be an lcp.Start (see Solution.start), not {start!r:.60}")
     if method not in METHODS:
         raise LcpError(f"unknown method {method!r}: choose one of {', '.join(METHODS)}")
-    if pivot_limit is not None and pivot_limit < 0:
-        raise LcpError(f"pivot_limit is {pivot_limit}: it must be zero or more")
+    _require_limit(pivot_limit)
     indptr, indices, data = _compressed_columns(M)
     core = _core.lcp_solve(
         indptr,
@@ -134,6 +156,155 @@ def solve(
         None if start is None else (start.indices, start.z),
         pivot_limit,
     )
+    return _solution(core, np.arange(core.z.size))
+
+
+class Counts(NamedTuple):
+    """Work done by a `Solver` so far: exact, the same on every machine."""
+
+    major_cycles: int
+    minor_cycles: int
+    pivots: int
+    """Major plus minor cycles."""
+    refactorisations: int
+    """Times the factor was built again because updates had lost accuracy."""
+    factor_rows: int
+    """Rows put into the factor of the active block and taken out of it."""
+    entries_solved: int
+    """Stored numbers of the factor read by triangular solves."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Snapshot:
+    """A state of a `Solver`: its rows, q and solution. Opaque; see `Solver.snapshot`."""
+
+    _core: _core.LcpSnapshot
+
+
+class Solver:
+    """A sequence of related problems: rows of a complete problem come and go, and q changes.
+
+    `M` is the complete (n, n) matrix, a symmetric positive semidefinite NumPy array or SciPy sparse
+    matrix, singular or not, and `q` has length n. No row is present at first. Every `solve` is for
+    M[rows][:, rows], q[rows] on the rows present, starts from what the solver had (the active set
+    and its factor) and gives the answer of a fresh solve: w is the same, and z where it is unique.
+
+    >>> import numpy as np
+    >>> from drystone import lcp
+    >>> M = np.array([[2.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]])
+    >>> solver = lcp.Solver(M, np.array([-5.0, -6.0, -4.0]))
+    >>> solver.add_rows([0, 1])
+    >>> solver.solve().z.round(6)
+    array([1.333333, 2.333333, 0.      ])
+
+    A state can be kept and gone back to. From there the third row takes one pivot:
+
+    >>> state = solver.snapshot()
+    >>> solver.add_rows([2])
+    >>> whole = solver.solve()
+    >>> whole.z.round(6), whole.pivots
+    (array([1.75, 1.5 , 1.25]), 1)
+    >>> solver.restore(state)
+    >>> solver.rows, solver.solve().pivots
+    (array([0, 1]), 0)
+
+    Raises LcpError for bad input, as `solve` does. One thread at a time may use a solver.
+    """
+
+    __slots__ = ("_core", "_n")
+
+    def __init__(self, M: Any, q: ArrayLike, pivot_limit: int | None = None) -> None:
+        _require_limit(pivot_limit)
+        self._core = _core.LcpSolver(*_compressed_columns(M), _vector(q, "q"), pivot_limit)
+        self._n = len(self._core.q())
+
+    @classmethod
+    def from_generators(
+        cls, G: Any, W: ArrayLike, h: ArrayLike, pivot_limit: int | None = None
+    ) -> Solver:
+        """M = G' W G and q = -G' W h, without forming anything dense.
+
+        `G` (rows, n) is a NumPy array or SciPy sparse matrix of generators; for contacts, the
+        wrenches of unit forces on the bodies. `W` (rows,) is a diagonal of entries that are zero or
+        more (inverse masses and inverse moments of inertia), `h` (rows,) the load to balance (the
+        applied wrenches with the opposite sign).
+
+        Of all z >= 0 the solution's G z is the nearest to h in the norm of W; w = 0 on every row if
+        it reaches h.
+
+        >>> G = np.array([[1.0, -1.0, 0.0], [0.0, 1.0, -1.0]])
+        >>> solver = Solver.from_generators(G, [0.5, 0.25], [3.0, -1.0])
+        >>> solver.add_rows([0, 1, 2])
+        >>> (G @ solver.solve().z).round(6)
+        array([ 3., -1.])
+        """
+        _require_limit(pivot_limit)
+        columns = _columns(G, "G")
+        W, h = _vector(W, "W"), _vector(h, "h")
+        if not columns.shape[0] == W.size == h.size:
+            raise LcpError(
+                f"G has {columns.shape[0]} rows but W has {W.size} entries and h has {h.size}: "
+                "give one of each for every row"
+            )
+        solver = cls.__new__(cls)
+        arrays = columns.indptr.astype(np.int64), columns.indices.astype(np.int64), columns.data
+        solver._core = _core.LcpSolver.from_generators(*arrays, W, h, pivot_limit)
+        solver._n = columns.shape[1]
+        return solver
+
+    def __len__(self) -> int:
+        """Rows of the complete problem, n."""
+        return self._n
+
+    def __repr__(self) -> str:
+        return f"<Solver: {len(self._core.rows())} of {self._n} rows, {self.counts.pivots} pivots>"
+
+    @property
+    def rows(self) -> NDArray[np.int64]:
+        """Rows that are present, ascending."""
+        return np.array(self._core.rows(), dtype=np.int64)
+
+    @property
+    def q(self) -> NDArray[np.float64]:
+        """(n,), as it is now. A copy: change it with `set_q`."""
+        return np.array(self._core.q(), dtype=np.float64)
+
+    @property
+    def counts(self) -> Counts:
+        """Work done since the solver was made; going back to a state does not take it back."""
+        return Counts(*self._core.counts())
+
+    def add_rows(self, rows: ArrayLike) -> None:
+        """Add rows of the complete problem; those already present stay as they are."""
+        self._core.add_rows(_indices(rows))
+
+    def remove_rows(self, rows: ArrayLike) -> None:
+        """Take rows out: their z becomes zero. Those that are not present stay so."""
+        self._core.remove_rows(_indices(rows))
+
+    def set_q(self, q: ArrayLike, rows: ArrayLike | None = None) -> None:
+        """Replace q, or its entries on some `rows`, present or not."""
+        if rows is None:
+            self._core.set_q(_vector(q, "q"))
+        else:
+            self._core.set_q_at(_indices(rows), _vector(q, "q"))
+
+    def solve(self) -> Solution:
+        """Solve for the rows present. `pivots` and the like are those of this solve."""
+        return _solution(self._core.solve(), self.rows)
+
+    def snapshot(self) -> Snapshot:
+        """The state, to come back to: rows, q and, after a solve, the solution."""
+        return Snapshot(self._core.snapshot())
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to a snapshot of this solver; solving again takes no pivot if it was solved."""
+        if not isinstance(snapshot, Snapshot):
+            raise LcpError(f"restore takes a Snapshot of this solver, not {snapshot!r:.60}")
+        self._core.restore(snapshot._core)
+
+
+def _solution(core: _core.LcpSolution, rows: NDArray[np.int64]) -> Solution:
     return Solution(
         core.z,
         core.w,
@@ -143,24 +314,49 @@ def solve(
         core.minor_cycles,
         core.residual,
         core.ray,
+        rows,
     )
+
+
+def _require_limit(pivot_limit: int | None) -> None:
+    if pivot_limit is not None and pivot_limit < 0:
+        raise LcpError(f"pivot_limit is {pivot_limit}: it must be zero or more")
+
+
+def _indices(rows: ArrayLike) -> NDArray[np.int64]:
+    indices = np.asarray(rows)
+    if indices.size and indices.dtype.kind not in "iu":
+        raise LcpError(f"rows must be whole numbers, not {indices.dtype}")
+    if indices.ndim != 1:
+        raise LcpError(f"rows must be a vector, not of shape {indices.shape}")
+    if np.any(indices < 0):
+        raise LcpError(f"row {indices.min()} is negative")
+    return np.ascontiguousarray(indices, dtype=np.int64)
 
 
 def _compressed_columns(
     M: Any,
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     """(indptr, indices, data) of a square matrix: rows in order and without repetition."""
+    columns = _columns(M, "M")
+    if columns.shape[0] != columns.shape[1]:
+        raise LcpError(f"M must be a square matrix, not of shape {columns.shape}")
+    return columns.indptr.astype(np.int64), columns.indices.astype(np.int64), columns.data
+
+
+def _columns(matrix: Any, what: str) -> sparse.csc_array:
     from scipy import sparse
 
-    if not sparse.issparse(M):
-        M = _floats(M, "M")
-    if M.ndim != 2 or M.shape[0] != M.shape[1]:
-        raise LcpError(f"M must be a square matrix, not of shape {M.shape}")
-    if M.dtype.kind not in "fiub":
-        raise LcpError(f"M must hold real numbers, not {M.dtype}")
-    columns = sparse.csc_array(M, dtype=np.float64, copy=True)
+    if not sparse.issparse(matrix):
+        matrix = _floats(matrix, what)
+    if matrix.ndim != 2:
+        square = "square " if what == "M" else ""
+        raise LcpError(f"{what} must be a {square}matrix, not of shape {matrix.shape}")
+    if matrix.dtype.kind not in "fiub":
+        raise LcpError(f"{what} must hold real numbers, not {matrix.dtype}")
+    columns = sparse.csc_array(matrix, dtype=np.float64, copy=True)
     columns.sum_duplicates()
-    return columns.indptr.astype(np.int64), columns.indices.astype(np.int64), columns.data
+    return columns
 
 
 def _vector(value: ArrayLike, what: str) -> NDArray[np.float64]:

@@ -154,3 +154,116 @@ def test_lemke_takes_no_start() -> None:
 def test_an_unknown_method_is_an_error() -> None:
     with pytest.raises(ds.LcpError, match="newton"):
         lcp.solve(np.eye(1), ONE, method="newton")
+
+
+def _columns(rng: np.random.Generator, rows: int, n: int) -> sparse.csc_array:
+    """Generators with a few entries a column."""
+    return sparse.random_array(
+        (rows, n), density=0.3, rng=rng, format="csc", data_sampler=rng.standard_normal
+    )
+
+
+def test_a_sequence_gives_the_answers_of_fresh_solves() -> None:
+    """Add, remove, change q, go back; w is unique, so it is what is compared."""
+    rng = np.random.default_rng(5)
+    kept = fresh_pivots = 0
+    for case in range(15):
+        n = int(rng.integers(4, 40))
+        G = _columns(rng, int(rng.integers(2, n + 1)), n)
+        M = (G.T @ G).tocsc()
+        solver = lcp.Solver(M if case % 2 else M.toarray(), -G.T @ rng.standard_normal(G.shape[0]))
+        solver.add_rows(rng.permutation(n)[: n // 2])
+        saved = [(solver.snapshot(), solver.rows, solver.q)]
+        for _ in range(25):
+            some = rng.permutation(n)[: int(rng.integers(1, 4))]
+            match int(rng.integers(4)):
+                case 0:
+                    solver.add_rows(some)
+                case 1:
+                    solver.remove_rows(some)
+                case 2:
+                    # q in the range of G', so that every part has a solution.
+                    solver.set_q(solver.q - 0.3 * G.T @ rng.standard_normal(G.shape[0]))
+                case _:
+                    state, rows, q = saved[int(rng.integers(len(saved)))]
+                    solver.restore(state)
+                    assert list(solver.rows) == list(rows)
+                    assert list(solver.q) == list(q)
+            before = solver.counts.pivots
+            solution = solver.solve()
+            assert solution.pivots == solver.counts.pivots - before
+            rows = solution.rows
+            fresh = lcp.solve(M[rows][:, rows], solver.q[rows])
+            assert (solution.status, fresh.status) == ("solved", "solved")
+            assert solution.recheck(M, solver.q) <= 1e-9
+            part = solution.restricted()
+            assert part.recheck(M[rows][:, rows], solver.q[rows]) <= 1e-9
+            scale = max(np.abs(solver.q).max(), np.abs(part.z).max(initial=0.0))
+            assert part.w == pytest.approx(fresh.w, abs=1e-8 * scale)
+            assert not np.any(np.delete(solution.z, rows))
+            kept, fresh_pivots = kept + solution.pivots, fresh_pivots + fresh.pivots
+            saved.append((solver.snapshot(), solver.rows, solver.q))
+    assert 2 * kept < fresh_pivots
+
+
+def test_generators_make_their_matrix() -> None:
+    rng = np.random.default_rng(6)
+    G = _columns(rng, 12, 30)
+    W, h = rng.uniform(0.1, 3, 12), rng.standard_normal(12)
+    M, q = (G.T @ sparse.diags_array(W) @ G).toarray(), -G.T @ (W * h)
+    for form in (G, G.toarray()):
+        solver = lcp.Solver.from_generators(form, W, h)
+        assert solver.q == pytest.approx(q)
+        solver.add_rows(np.arange(30))
+        assert solver.solve().w == pytest.approx(lcp.solve(M, q).w, abs=1e-9)
+
+
+def test_a_part_without_a_solution_comes_with_a_proof_and_the_solver_goes_on() -> None:
+    M = np.array([[1.0, -1.0, 0.0], [-1.0, 1.0, 0.0], [0.0, 0.0, 2.0]])
+    solver = lcp.Solver(M, [-1.0, -1.0, -2.0])
+    solver.add_rows([0, 1])
+    none = solver.solve()
+    assert none.status == "no_solution"
+    assert none.ray is not None
+    assert none.ray / none.ray.max() == pytest.approx([1, 1, 0])
+    solver.add_rows([2])
+    solver.remove_rows([1])
+    assert solver.solve().z == pytest.approx([1, 0, 1])
+
+
+def _two() -> lcp.Solver:
+    solver = lcp.Solver(np.eye(2), [-1.0, -2.0])
+    solver.add_rows([0])
+    return solver
+
+
+BAD_CHANGES = {
+    "row too large": (lambda s: s.add_rows([2]), "row 2"),
+    "negative row": (lambda s: s.remove_rows([-1]), "negative"),
+    "fractional row": (lambda s: s.add_rows([0.5]), "whole"),
+    "one number": (lambda s: s.add_rows(1), "vector"),
+    "q too short": (lambda s: s.set_q([1.0]), "q"),
+    "nan in q": (lambda s: s.set_q([1.0, NAN]), r"q\[1\]"),
+    "nan on a row": (lambda s: s.set_q([NAN], rows=[1]), r"q\[1\]"),
+    "values that are too many": (lambda s: s.set_q([1.0, 2.0], rows=[1]), "2 values"),
+    "a snapshot of another": (lambda s: s.restore(_two().snapshot()), "another solver"),
+    "no snapshot": (lambda s: s.restore(None), "Snapshot"),
+    "a negative limit": (
+        lambda s: lcp.Solver(np.eye(2), [1.0, 1.0], pivot_limit=-1),
+        "pivot_limit",
+    ),
+    "M not symmetric": (lambda s: lcp.Solver([[1.0, 2.0], [0.0, 1.0]], [1.0, 1.0]), "symmetric"),
+    "W negative": (lambda s: lcp.Solver.from_generators([[1.0]], [-1.0], ONE), "inverse mass"),
+    "h too long": (lambda s: lcp.Solver.from_generators([[1.0]], ONE, [1.0, 2.0]), "h has 2"),
+    "G a vector": (lambda s: lcp.Solver.from_generators([1.0], ONE, ONE), "G must be a matrix"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_CHANGES)
+def test_what_a_solver_refuses_changes_nothing(case: str) -> None:
+    solver = _two()
+    change, part = BAD_CHANGES[case]
+    with pytest.raises(lcp.LcpError, match=part):
+        change(solver)
+    assert list(solver.rows) == [0]
+    assert list(solver.solve().z) == [1.0, 0.0]

@@ -1,7 +1,7 @@
 //! `lcp_solve`: matrices in compressed columns in, a checked solution out.
 
 use crate::{arrays::vector, errors::lcp_error};
-use drystone_lcp::{Dantzig, LcpError, Lemke, Method, Problem, Settings, SparseColumns, Start};
+use drystone_lcp::{Dantzig, LcpError, Lemke, Method, Problem, Settings, Solution, SparseColumns, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
@@ -18,11 +18,27 @@ pub struct LcpSolution {
     refactorisations: usize,
 }
 
-fn values<T: numpy::Element + Copy>(array: &PyReadonlyArray1<'_, T>) -> Vec<T> {
+impl LcpSolution {
+    pub fn new(py: Python<'_>, solution: Solution) -> Self {
+        Self {
+            z: vector(py, solution.z).unbind(),
+            w: vector(py, solution.w).unbind(),
+            status: solution.status.name().to_owned(),
+            pivots: solution.counts.pivots,
+            major_cycles: solution.counts.major_cycles,
+            minor_cycles: solution.counts.minor_cycles,
+            residual: solution.residual,
+            ray: solution.ray.map(|ray| vector(py, ray).unbind()),
+            refactorisations: solution.counts.refactorisations,
+        }
+    }
+}
+
+pub fn values<T: numpy::Element + Copy>(array: &PyReadonlyArray1<'_, T>) -> Vec<T> {
     array.as_array().iter().copied().collect()
 }
 
-fn whole_numbers(array: &PyReadonlyArray1<'_, i64>, what: &str) -> PyResult<Vec<usize>> {
+pub fn whole_numbers(array: &PyReadonlyArray1<'_, i64>, what: &str) -> PyResult<Vec<usize>> {
     let convert = |value: i64| {
         usize::try_from(value).map_err(|_| lcp_error(&LcpError::Structure { reason: format!("{what} holds {value}") }))
     };
@@ -64,15 +80,5 @@ pub fn lcp_solve(
             solver.solve(&Problem::new(m, q)?, start.as_ref(), &settings)
         })
         .map_err(|error| lcp_error(&error))?;
-    Ok(LcpSolution {
-        z: vector(py, solution.z).unbind(),
-        w: vector(py, solution.w).unbind(),
-        status: solution.status.name().to_owned(),
-        pivots: solution.counts.pivots,
-        major_cycles: solution.counts.major_cycles,
-        minor_cycles: solution.counts.minor_cycles,
-        residual: solution.residual,
-        ray: solution.ray.map(|ray| vector(py, ray).unbind()),
-        refactorisations: solution.counts.refactorisations,
-    })
+    Ok(LcpSolution::new(py, solution))
 }

@@ -3,6 +3,7 @@
 mod arrays;
 mod errors;
 mod lcp;
+mod lcp_solver;
 mod plan;
 mod scene;
 mod verdict;
@@ -22,6 +23,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<plan::Plan>()?;
     module.add_class::<plan::Generators>()?;
     module.add_class::<lcp::LcpSolution>()?;
+    module.add_class::<lcp_solver::LcpSolver>()?;
+    module.add_class::<lcp_solver::LcpSnapshot>()?;
     module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(verdict::check, module)?)?;
     module.add_function(wrap_pyfunction!(plan::generators, module)?)?;
