@@ -24,8 +24,10 @@ SCENES, OUTPUT, TRACE = (Path(argument) for argument in sys.argv[1:])
 ENOUGH = 4
 """Answers before a machine is killed: both have begun to work, most work is still to do."""
 NODE = {"object_store_memory": 80 * 2**20, "include_dashboard": False}
-# A machine that is silent for five seconds is dead; Ray's own patience is 15 to 30.
-PATIENCE = {"health_check_period_ms": 1000, "health_check_failure_threshold": 5}
+# Who does not answer twice within a second is dead; Ray's own patience is 15 seconds.
+PATIENCE = {"health_check_period_ms": 500, "health_check_failure_threshold": 2}
+TASK = 0.3
+"""Seconds that a task lasts at least, so that the machine dies while it is at one."""
 plan_text = work.plan_text
 
 
@@ -37,6 +39,7 @@ def note(text: str) -> None:
 def traced(text: str, source: str, settings: work.Settings) -> str:
     """`plan_text` with a trace."""
     note(f"{Path(source).stem} {ray.get_runtime_context().get_node_id()}")
+    time.sleep(TASK)
     return plan_text(text, source, settings)
 
 
@@ -44,11 +47,14 @@ def main() -> int:
     head = {"num_cpus": 0, "_system_config": PATIENCE, **NODE}
     cluster = Cluster(initialize_head=True, head_node_args=head)
     try:
-        nodes = [cluster.add_node(num_cpus=1, **NODE) for _ in range(2)]
+        nodes = [cluster.add_node(wait=False, num_cpus=1, **NODE) for _ in range(2)]
         cluster.wait_for_nodes()
 
         def kill_one() -> None:
             while len(read_index(OUTPUT)) < ENOUGH:
+                time.sleep(0.01)
+            begun = TRACE.read_text().count(nodes[0].node_id)
+            while TRACE.read_text().count(nodes[0].node_id) == begun:
                 time.sleep(0.01)
             cluster.remove_node(nodes[0], allow_graceful=False)
             note(f"killed {nodes[0].node_id}")
