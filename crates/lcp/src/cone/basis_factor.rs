@@ -7,8 +7,7 @@
 //!
 //! Rows and basis positions share one index: position p starts as the unit column of row p.
 
-use super::sparse_vector::SparseVector;
-use std::{cmp::Reverse, collections::BinaryHeap};
+use super::{due::Due, sparse_vector::SparseVector};
 
 type Entries = Vec<(u32, f64)>;
 
@@ -42,6 +41,7 @@ pub(super) struct BasisFactor {
     /// Operations that write a row, ascending.
     writers: Vec<Vec<u32>>,
     undo: Vec<Undo>,
+    due: Due,
     visited: Vec<bool>,
     order: Vec<u32>,
     stack: Vec<(u32, u32)>,
@@ -70,6 +70,7 @@ impl BasisFactor {
             readers: vec![Vec::new(); n],
             writers: vec![Vec::new(); n],
             undo: Vec::new(),
+            due: Due::default(),
             visited: vec![false; n],
             order: Vec::new(),
             stack: Vec::new(),
@@ -78,20 +79,16 @@ impl BasisFactor {
     }
 
     /// `L^-1 a` in place: the spike of a column.
-    pub fn apply_operations(&self, x: &mut SparseVector) {
-        let mut due: BinaryHeap<Reverse<u32>> =
-            x.index().iter().flat_map(|&i| &self.readers[i as usize]).map(|&id| Reverse(id)).collect();
-        let mut last = None;
-        while let Some(Reverse(id)) = due.pop() {
-            if last.replace(id) == Some(id) {
-                continue;
-            }
-            let operation = &self.operations[id as usize];
+    pub fn apply_operations(&mut self, x: &mut SparseVector) {
+        let Self { operations, readers, due, .. } = self;
+        due.reset(operations.len());
+        x.index().iter().for_each(|&i| due.insert_all(&readers[i as usize], 0..u32::MAX));
+        while let Some(id) = due.take_first() {
+            let operation = &operations[id as usize];
             let sum: f64 = operation.terms.iter().map(|&(row, factor)| factor * x.get(row)).sum();
             if sum != 0.0 {
                 if x.list(operation.target) {
-                    let later = self.readers[operation.target as usize].iter().filter(|&&reader| reader > id);
-                    due.extend(later.map(|&reader| Reverse(reader)));
+                    due.insert_all(&readers[operation.target as usize], id + 1..u32::MAX);
                 }
                 x.add(operation.target, -sum);
             }
@@ -116,18 +113,16 @@ impl BasisFactor {
         self.topological(y.index(), Side::Rows);
         y.list_all(&self.order);
         back_substitute(&self.order, &self.rows, &self.diagonal, y.values());
-        let mut due: BinaryHeap<u32> = y.index().iter().flat_map(|&i| &self.writers[i as usize]).copied().collect();
-        let mut last = None;
-        while let Some(id) = due.pop() {
-            if last.replace(id) == Some(id) {
-                continue;
-            }
-            let operation = &self.operations[id as usize];
+        let Self { operations, writers, due, .. } = self;
+        due.reset(operations.len());
+        y.index().iter().for_each(|&i| due.insert_all(&writers[i as usize], 0..u32::MAX));
+        while let Some(id) = due.take_last() {
+            let operation = &operations[id as usize];
             let value = y.get(operation.target);
             if value != 0.0 {
                 for &(row, factor) in &operation.terms {
                     if y.list(row) {
-                        due.extend(self.writers[row as usize].iter().filter(|&&writer| writer < id));
+                        due.insert_all(&writers[row as usize], 0..id);
                     }
                     y.add(row, -factor * value);
                 }

@@ -11,6 +11,7 @@
 
 mod basis_factor;
 mod columns;
+mod due;
 mod membership;
 mod pricing;
 mod sparse_vector;
