@@ -1,0 +1,140 @@
+//! What is kept: marks to return to, and the factor built again when its digits are worn.
+
+use super::{Basic, Change, ConeSolver, Mark, OUT, PIVOT, infeasible};
+
+impl ConeSolver {
+    /// The state as it is, to come back to with [`Self::roll_back`]. Marks are taken back last first.
+    pub fn mark(&mut self) -> Mark {
+        let mark = Mark {
+            changes: self.changes.len(),
+            factor: self.factor.mark(),
+            rows: self.rows.len(),
+            rebuilds: self.counts.refactorisations,
+        };
+        self.overwritten.clear();
+        self.last_mark = Some(mark);
+        mark
+    }
+
+    /// Returns to a mark. To the latest one, the values come back bit for bit; to an earlier one they are computed
+    /// again from its basis.
+    pub fn roll_back(&mut self, mark: Mark) {
+        let same_positions = mark.rebuilds == self.counts.refactorisations;
+        let exact = self.last_mark == Some(mark);
+        let mut basic_columns = if same_positions { Vec::new() } else { self.basic_columns() };
+        while self.changes.len() > mark.changes
+            && let Some(change) = self.changes.pop()
+        {
+            match change {
+                Change::Pivot { position, entered, left } if same_positions => {
+                    self.position[entered as usize] = OUT;
+                    self.put(position, left);
+                }
+                Change::Pivot { entered, left, .. } => {
+                    basic_columns.retain(|&j| j != entered);
+                    if let Basic::Column(j) = left {
+                        basic_columns.push(j);
+                    }
+                }
+                Change::Row(row) => {
+                    self.present[row as usize] = false;
+                    for &(j, _) in self.g.columns_of(row) {
+                        self.missing[j as usize] += 1;
+                    }
+                }
+            }
+        }
+        if same_positions {
+            self.factor.undo_to(mark.factor);
+        }
+        if exact {
+            self.suspects.clear();
+            while let Some((position, value)) = self.overwritten.pop() {
+                self.change(position);
+                self.x[position as usize] = value;
+            }
+            self.rows.truncate(mark.rows);
+        } else {
+            if !same_positions {
+                self.rebuild(&basic_columns);
+            }
+            self.rows.truncate(mark.rows);
+            self.suspects.clear();
+            self.recompute_values();
+        }
+        self.overwritten.clear();
+        self.last_mark = exact.then_some(mark);
+    }
+
+    pub(super) fn basic_columns(&self) -> Vec<u32> {
+        let column = |&p: &u32| match self.basic[p as usize] {
+            Basic::Column(j) => Some(j),
+            Basic::Unit => None,
+        };
+        self.rows.iter().filter_map(column).collect()
+    }
+
+    /// Builds the factor again if a pivot showed lost digits. None if that fails.
+    pub(super) fn rebuild_if_shaky(&mut self) -> Option<()> {
+        if std::mem::take(&mut self.shaky) {
+            let columns = self.basic_columns();
+            if !self.rebuild(&columns) {
+                return None;
+            }
+            self.recompute_values();
+            self.shaky = false;
+        }
+        Some(())
+    }
+
+    /// Builds the factor again from these columns, each in the free position where it is largest; one that depends on
+    /// those before it stays out. False if the factor refuses one.
+    pub(super) fn rebuild(&mut self, columns: &[u32]) -> bool {
+        self.counts.refactorisations += 1;
+        self.last_mark = None;
+        self.factor.reset();
+        self.suspects.clear();
+        for j in self.basic_columns() {
+            self.position[j as usize] = OUT;
+        }
+        self.rows.iter().for_each(|&p| self.basic[p as usize] = Basic::Unit);
+        for &j in columns {
+            self.column_spike(j);
+            self.direction_from_spike();
+            let free = |&(p, _): &(u32, f64)| self.basic[p as usize] == Basic::Unit;
+            let best = self.direction.iter().filter(free).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            let Some((p, _)) = best.filter(|best| best.1.abs() > PIVOT) else { continue };
+            if self.factor.replace(p, &self.spike).is_none() {
+                return false;
+            }
+            self.put(p, Basic::Column(j));
+        }
+        true
+    }
+
+    pub(super) fn remember(&mut self, p: u32) {
+        if self.last_mark.is_some() {
+            self.overwritten.push((p, self.x[p as usize]));
+        }
+    }
+
+    /// `x = B^-1 h` on the present rows.
+    pub(super) fn recompute_values(&mut self) {
+        self.direction.clear();
+        for &row in &self.rows {
+            self.direction.set(row, self.h[row as usize]);
+        }
+        self.factor.apply_operations(&mut self.direction);
+        self.factor.solve_upper(&mut self.direction);
+        self.recheck_all();
+        for k in 0..self.rows.len() {
+            let row = self.rows[k];
+            self.remember(row);
+            let value = self.direction.get(row);
+            self.x[row as usize] = value;
+            if infeasible(self.basic[row as usize], value) != 0.0 {
+                self.suspects.push(row);
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Phase one of the primal simplex method, step by step: price, direction, ratio test, pivot.
+
+use super::{
+    Basic, Blocking, Change, ConeSolver, DISAGREEMENT, GROWTH, Membership, OUT, PIVOT, PROGRESS, RATE, SAFE_PIVOT,
+    SLACK, STALL, ZERO, infeasible,
+};
+
+impl ConeSolver {
+    /// Drives the infeasibility down until it is gone or cannot fall. None if a pivot was refused.
+    pub(super) fn phase_one(&mut self, limit: usize) -> Option<Membership> {
+        let (mut stalled, mut best) = (0, f64::INFINITY);
+        loop {
+            self.rebuild_if_shaky()?;
+            let x = &self.x;
+            let basic = &self.basic;
+            self.suspects.retain(|&p| infeasible(basic[p as usize], x[p as usize]) != 0.0);
+            if self.suspects.is_empty() {
+                return Some(Membership::Inside);
+            }
+            if self.counts.pivots >= limit {
+                return Some(Membership::PivotLimit);
+            }
+            self.multipliers();
+            let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
+            stalled = if infeasibility < best * (1.0 - PROGRESS) { 0 } else { stalled + 1 };
+            best = best.min(infeasibility);
+            if stalled == STALL {
+                self.shaky = true; // a factor gone wrong is the likelier reason
+                continue;
+            }
+            let least_index = stalled > STALL;
+            let (missing, position) = (&self.missing, &self.position);
+            let allowed = |j: u32| missing[j as usize] == 0 && position[j as usize] == OUT;
+            let Some(entering) = self.pricing.entering(&self.g, &self.y, allowed, RATE, least_index) else {
+                return Some(Membership::Outside);
+            };
+            self.column_spike(entering);
+            let (step, leaving, rate) = match self.balanced_row() {
+                Some((row, rate)) => (0.0, row, rate),
+                None => {
+                    self.direction_from_spike();
+                    let (step, leaving) = self.ratio_test(least_index)?;
+                    (step, leaving, self.direction.get(leaving))
+                }
+            };
+            if step > 0.0 {
+                self.step(step);
+            }
+            self.exchange(entering, leaving, step, rate)?;
+        }
+    }
+
+    /// `y = B^-T c` with c the rate at which the infeasibility grows with each basic value.
+    pub(super) fn multipliers(&mut self) {
+        self.y.clear();
+        self.suspects.sort_unstable();
+        self.suspects.dedup();
+        for &p in &self.suspects {
+            self.y.set(p, infeasible(self.basic[p as usize], self.x[p as usize]));
+        }
+        self.factor.solve_transposed(&mut self.y);
+    }
+
+    /// `L^-1 g` of a column.
+    pub(super) fn column_spike(&mut self, j: u32) {
+        self.spike.clear();
+        for &(row, value) in self.g.column(j) {
+            self.spike.set(row, value);
+        }
+        self.factor.apply_operations(&mut self.spike);
+    }
+
+    /// `B^-1 g`.
+    pub(super) fn direction_from_spike(&mut self) {
+        self.direction.clear();
+        for (row, value) in self.spike.iter() {
+            self.direction.set(row, value);
+        }
+        self.factor.solve_upper(&mut self.direction);
+    }
+
+    /// A row in balance that the spike alone shows to block the step at once, which saves the direction. Of several the
+    /// one with the largest entry.
+    pub(super) fn balanced_row(&self) -> Option<(u32, f64)> {
+        let balanced = |p: u32| self.basic[p as usize] == Basic::Unit && self.x[p as usize].abs() <= ZERO;
+        let entry = |p: u32| self.factor.first_solved(p, &self.spike).filter(|entry| entry.abs() > SAFE_PIVOT);
+        self.spike
+            .index()
+            .iter()
+            .filter(|&&p| balanced(p))
+            .filter_map(|&p| Some((p, entry(p)?)))
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()).then(b.0.cmp(&a.0)))
+    }
+
+    /// How far the entering column can go until a basic value reaches zero, and which. A unit column at zero allows
+    /// no step: a balanced row stays balanced.
+    pub(super) fn ratio_test(&mut self, least_index: bool) -> Option<(f64, u32)> {
+        let slack = if least_index { 0.0 } else { SLACK };
+        let mut bound = f64::INFINITY;
+        self.blocking.clear();
+        for (p, rate) in self.direction.iter() {
+            let size = rate.abs();
+            if size <= PIVOT {
+                continue;
+            }
+            let (basic, value) = (self.basic[p as usize], self.x[p as usize]);
+            let sign = infeasible(basic, value);
+            let room = if sign != 0.0 {
+                if sign * rate < 0.0 {
+                    continue;
+                }
+                value.abs()
+            } else if basic == Basic::Unit {
+                0.0
+            } else if rate > 0.0 {
+                value.max(0.0)
+            } else {
+                continue;
+            };
+            let reach = (room + slack) / size;
+            if room / size <= bound {
+                self.blocking.push(Blocking { position: p, ratio: room / size, size });
+                bound = bound.min(reach);
+            }
+        }
+        let order = |b: &Blocking| {
+            let unit = self.basic[b.position as usize] == Basic::Unit;
+            (!unit, if least_index { 0.0 } else { -b.size }, self.leaving_index(b.position))
+        };
+        self.blocking
+            .iter()
+            .filter(|b| b.ratio <= bound)
+            .min_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal))
+            .map(|b| (b.ratio, b.position))
+    }
+
+    pub(super) fn leaving_index(&self, p: u32) -> u32 {
+        match self.basic[p as usize] {
+            Basic::Unit => p,
+            Basic::Column(j) => j,
+        }
+    }
+
+    pub(super) fn step(&mut self, step: f64) {
+        for (p, rate) in self.direction.iter() {
+            let x = &mut self.x[p as usize];
+            if self.last_mark.is_some() {
+                self.overwritten.push((p, *x));
+            }
+            if !std::mem::replace(&mut self.is_changed[p as usize], true) {
+                self.changed.push(p);
+            }
+            *x -= step * rate;
+            if infeasible(self.basic[p as usize], *x) != 0.0 {
+                self.suspects.push(p);
+            }
+        }
+    }
+
+    /// One pivot. None if the factor refuses it.
+    pub(super) fn exchange(&mut self, entering: u32, leaving: u32, step: f64, rate: f64) -> Option<()> {
+        let replacement = self.factor.replace(leaving, &self.spike)?;
+        let disagreement = (replacement.rate - rate).abs() / rate.abs();
+        self.shaky |= disagreement > DISAGREEMENT || replacement.growth > GROWTH;
+        self.counts.pivots += 1;
+        self.counts.major_cycles += 1;
+        let left = self.basic[leaving as usize];
+        if let Basic::Column(j) = left {
+            self.position[j as usize] = OUT;
+            self.left.push(j);
+        }
+        self.change(leaving);
+        self.changes.push(Change::Pivot { position: leaving, entered: entering, left });
+        self.put(leaving, Basic::Column(entering));
+        self.remember(leaving);
+        self.x[leaving as usize] = step;
+        Some(())
+    }
+
+    pub(super) fn put(&mut self, position: u32, basic: Basic) {
+        self.basic[position as usize] = basic;
+        if let Basic::Column(j) = basic {
+            self.position[j as usize] = position;
+        }
+    }
+}
