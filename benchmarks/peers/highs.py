@@ -17,6 +17,7 @@ import highspy
 import numpy as np
 
 from assembly import Assembly, Indices, rows_of
+from drystone.statics import QuietHighs
 from peers.base import Answer, Peer, Present
 from steps import Step
 
@@ -161,8 +162,7 @@ class Cold(Peer):
 
 def new_model(cap: float) -> highspy.Highs:
     """An empty model on one thread; `cap` bounds the seconds of all its solves together."""
-    highs = highspy.Highs()
-    highs.setOptionValue("output_flag", False)
+    highs = QuietHighs()
     highs.setOptionValue("threads", 1)
     highs.setOptionValue("parallel", "off")
     if np.isfinite(cap):

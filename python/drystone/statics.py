@@ -202,9 +202,25 @@ class _Placed:
     """HiGHS's basis when the sub-assembly up to this block was found to stand."""
 
 
-def _new_model() -> highspy.Highs:
-    highs = highspy.Highs()
-    highs.setOptionValue("output_flag", False)
+class QuietHighs(highspy.Highs):
+    """HiGHS that writes nothing to standard output: there is somebody's JSON.
+
+    From 1.16 on its constructor sets the callbacks, and the first call that is not about options
+    prints a banner. So the output is turned off just before.
+    """
+
+    def __init__(self) -> None:
+        super().__init__()  # type: ignore[no-untyped-call]
+        self.setOptionValue("output_flag", False)
+
+    def enableCallbacks(self) -> None:  # noqa: N802 (HiGHS names it)
+        self.setOptionValue("output_flag", False)
+        untyped: Any = super()
+        untyped.enableCallbacks()
+
+
+def _new_model() -> QuietHighs:
+    highs = QuietHighs()
     highs.setOptionValue("threads", 1)
     highs.setOptionValue("presolve", "off")
     highs.setOptionValue("solver", "simplex")

@@ -29,6 +29,7 @@ from scipy import sparse
 
 import drystone as ds
 from conftest import dropped
+from drystone.statics import QuietHighs
 
 STANDS = 1e-9
 """Ten times HiGHS's own tolerance: a smaller margin cannot be told from none."""
@@ -56,8 +57,7 @@ def margin(scene: ds.Scene) -> float:
     program.a_matrix_.index_ = matrix.indices
     program.a_matrix_.value_ = matrix.data
     for solver in ("simplex", "ipm"):
-        highs = highspy.Highs()
-        highs.setOptionValue("output_flag", False)
+        highs = QuietHighs()
         highs.setOptionValue("threads", 1)
         highs.setOptionValue("solver", solver)
         # The tightest that HiGHS takes.

@@ -51,7 +51,15 @@ def test_gravity_and_mass_do_not_matter() -> None:
         assert not program([1], 1)[0]
 
 
-class _Stubborn(highspy.Highs):
+@pytest.mark.parametrize("test", ["lp", "lp-warm"])
+def test_highs_leaves_standard_output_to_the_answer(
+    test: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    ds.plan(ds.scenes.five_blocks(), test)
+    assert capfd.readouterr() == ("", "")
+
+
+class _Stubborn(statics.QuietHighs):
     """HiGHS, but the methods named in `silent` end without an answer."""
 
     silent: tuple[str, ...] = ()
@@ -69,7 +77,7 @@ def test_another_method_decides_where_the_simplex_method_does_not(
     silent: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(_Stubborn, "silent", silent)
-    monkeypatch.setattr(statics.highspy, "Highs", _Stubborn)
+    monkeypatch.setattr(statics, "QuietHighs", _Stubborn)
     program = statics.ColdProgram(statics.Equilibrium.of(ds.scenes.five_blocks()))
     assert program([0, 2, 4], 4)[0]
     assert not program([0, 2], 2)[0]
@@ -77,7 +85,7 @@ def test_another_method_decides_where_the_simplex_method_does_not(
 
 def test_no_answer_is_an_error_and_never_a_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(_Stubborn, "silent", ("primal", "ipm", "simplex"))
-    monkeypatch.setattr(statics.highspy, "Highs", _Stubborn)
+    monkeypatch.setattr(statics, "QuietHighs", _Stubborn)
     for test in ("lp", "lp-warm"):
         with pytest.raises(ds.StaticsError, match="none of its methods"):
             ds.plan(ds.scenes.five_blocks(), test)
