@@ -4,6 +4,9 @@
 
 A process of its own: Ray reads its environment when it is imported. TRACE gets a line "SCENE NODE"
 for each time a task was begun, and "killed NODE".
+
+The machine to be killed is told so by a file, and does not end a task that it begins after that:
+so it dies at work however slow or fast the machine below is.
 """
 
 from __future__ import annotations
@@ -26,8 +29,10 @@ ENOUGH = 4
 NODE = {"object_store_memory": 80 * 2**20, "include_dashboard": False}
 # Who does not answer twice within a second is dead; Ray's own patience is 15 seconds.
 PATIENCE = {"health_check_period_ms": 500, "health_check_failure_threshold": 2}
-TASK = 0.3
-"""Seconds that a task lasts at least, so that the machine dies while it is at one."""
+CONDEMNED = TRACE.with_name("condemned")
+"""Holds the name of the machine to be killed."""
+AT_WORK = 120.0
+"""Seconds that the condemned machine is at its last task, should nobody kill it."""
 plan_text = work.plan_text
 
 
@@ -37,9 +42,13 @@ def note(text: str) -> None:
 
 
 def traced(text: str, source: str, settings: work.Settings) -> str:
-    """`plan_text` with a trace."""
-    note(f"{Path(source).stem} {ray.get_runtime_context().get_node_id()}")
-    time.sleep(TASK)
+    """`plan_text` with a trace, and without an end on the condemned machine."""
+    node = ray.get_runtime_context().get_node_id()
+    # Read before the trace is written: who waits for a line of this task sees it not ending.
+    condemned = CONDEMNED.exists() and CONDEMNED.read_text() == node
+    note(f"{Path(source).stem} {node}" + " condemned" * condemned)
+    if condemned:
+        time.sleep(AT_WORK)
     return plan_text(text, source, settings)
 
 
@@ -53,8 +62,10 @@ def main() -> int:
         def kill_one() -> None:
             while len(read_index(OUTPUT)) < ENOUGH:
                 time.sleep(0.01)
-            begun = TRACE.read_text().count(nodes[0].node_id)
-            while TRACE.read_text().count(nodes[0].node_id) == begun:
+            part = CONDEMNED.with_suffix(".part")
+            part.write_text(nodes[0].node_id)
+            part.replace(CONDEMNED)
+            while " condemned" not in TRACE.read_text():
                 time.sleep(0.01)
             cluster.remove_node(nodes[0], allow_graceful=False)
             note(f"killed {nodes[0].node_id}")
