@@ -381,7 +381,7 @@ def test_a_machine_of_a_ray_cluster_dies(tmp_path: Path) -> None:
         env=ray_environment(),
         capture_output=True,
         text=True,
-        timeout=240,
+        timeout=600,
     )
     assert ran.returncode == 0, ran.stderr
     assert json.loads(ran.stdout)["found"] == len(scenes)
@@ -413,7 +413,7 @@ def test_ray_on_one_machine_needs_no_start(
         env=ray_environment(),
         capture_output=True,
         text=True,
-        timeout=240,
+        timeout=600,
     )
     assert (ran.returncode, ran.stderr) == (1, "")
     assert json.loads(ran.stdout)["found"] == len(scenes) - 1
