@@ -2,12 +2,15 @@
 //!
 //! Forrest and Tomlin, Updated triangular factors of the basis to maintain sparsity in the product form simplex
 //! method (1972): the new column of `U` is the *spike* `L^-1 a`; its row is eliminated by one row of `L` and moves to the
-//! end. Solves visit only entries that can differ from zero (Gilbert and Peierls, Sparse partial pivoting in time
-//! proportional to arithmetic operations, 1988). Every change can be undone, last first.
+//! end. Solves visit only entries that can differ from zero, as in Gilbert and Peierls, Sparse partial pivoting in time
+//! proportional to arithmetic operations (1988). Every change can be undone, last first.
 //!
-//! Rows and basis positions share one index: position p starts as the unit column of row p.
+//! Rows and basis positions share one index: position p starts as the unit column of row p. Each column put in gets the
+//! next *stage*, a number that it keeps for good, and takes its row along: `U` is upper triangular in the order of the
+//! stages, and its entries join stages. What a replaced column was stays behind under its old stage, to be put back.
 
 use super::{due::Due, sparse_vector::SparseVector};
+use std::ops::Range;
 
 type Entries = Vec<(u32, f64)>;
 
@@ -18,23 +21,44 @@ struct RowOperation {
     terms: Entries,
 }
 
-/// What one replacement took away.
-#[derive(Debug, Clone)]
+/// One replacement: the stage that the position had before, and whether it needed a row operation.
+#[derive(Debug, Clone, Copy)]
 struct Undo {
     position: u32,
-    column: Entries,
-    row: Entries,
-    diagonal: f64,
+    stage: u32,
     operation: bool,
+}
+
+/// A column of `U`.
+#[derive(Debug, Clone, Copy)]
+struct Stage {
+    position: u32,
+    /// Where its entries above the diagonal are, and how many. It never has more than when it was put in.
+    start: u32,
+    len: u32,
+    /// One over the diagonal entry: a multiplication is sooner done than a division.
+    reciprocal: f64,
+}
+
+impl Stage {
+    fn unit(position: u32) -> Self {
+        Self { position, start: 0, len: 0, reciprocal: 1.0 }
+    }
+
+    fn range(&self) -> Range<usize> {
+        self.start as usize..(self.start + self.len) as usize
+    }
 }
 
 #[derive(Debug, Clone)]
 pub(super) struct BasisFactor {
-    /// Column p of `U` above its diagonal: (row, value).
-    columns: Vec<Entries>,
-    /// Row p of `U` right of its diagonal: (column, value).
+    stages: Vec<Stage>,
+    /// Stage of the column in each position.
+    stage: Vec<u32>,
+    /// Entries of the columns of `U` above the diagonal: (stage, value).
+    above: Entries,
+    /// Row of `U` right of its diagonal, by stage: (stage, value).
     rows: Vec<Entries>,
-    diagonal: Vec<f64>,
     operations: Vec<RowOperation>,
     /// Operations that read a row, ascending.
     readers: Vec<Vec<u32>>,
@@ -42,10 +66,8 @@ pub(super) struct BasisFactor {
     writers: Vec<Vec<u32>>,
     undo: Vec<Undo>,
     due: Due,
-    visited: Vec<bool>,
-    order: Vec<u32>,
-    stack: Vec<(u32, u32)>,
-    work: SparseVector,
+    /// By stage; zero between solves.
+    work: Vec<f64>,
 }
 
 /// What a replacement says about its accuracy.
@@ -63,18 +85,16 @@ const SINGULAR: f64 = 1e-11;
 impl BasisFactor {
     pub fn identity(n: usize) -> Self {
         Self {
-            columns: vec![Vec::new(); n],
+            stages: (0..n as u32).map(Stage::unit).collect(),
+            stage: (0..n as u32).collect(),
+            above: Vec::new(),
             rows: vec![Vec::new(); n],
-            diagonal: vec![1.0; n],
             operations: Vec::new(),
             readers: vec![Vec::new(); n],
             writers: vec![Vec::new(); n],
             undo: Vec::new(),
             due: Due::default(),
-            visited: vec![false; n],
-            order: Vec::new(),
-            stack: Vec::new(),
-            work: SparseVector::zero(n),
+            work: vec![0.0; n],
         }
     }
 
@@ -82,49 +102,90 @@ impl BasisFactor {
     pub fn apply_operations(&mut self, x: &mut SparseVector) {
         let Self { operations, readers, due, .. } = self;
         due.reset(operations.len());
-        x.index().iter().for_each(|&i| due.insert_all(&readers[i as usize], 0..u32::MAX));
-        while let Some(id) = due.take_first() {
+        x.index().iter().for_each(|&i| due.insert_all(&readers[i as usize]));
+        let mut due = due.upward();
+        while let Some(id) = due.take() {
             let operation = &operations[id as usize];
             let sum: f64 = operation.terms.iter().map(|&(row, factor)| factor * x.get(row)).sum();
             if sum != 0.0 {
                 if x.list(operation.target) {
-                    due.insert_all(&readers[operation.target as usize], id + 1..u32::MAX);
+                    due.insert_after(id, &readers[operation.target as usize]);
                 }
                 x.add(operation.target, -sum);
             }
         }
     }
 
-    /// `U^-1 x` in place.
-    pub fn solve_upper(&mut self, x: &mut SparseVector) {
-        self.topological(x.index(), Side::Columns);
-        x.list_all(&self.order);
-        back_substitute(&self.order, &self.columns, &self.diagonal, x.values());
+    /// `U^-1 spike` as (position, value), the later stages first; nothing that is zero.
+    pub fn solve_upper(&mut self, spike: &SparseVector, solution: &mut Vec<(u32, f64)>) {
+        solution.clear();
+        self.seed(spike);
+        let Self { stages, above, due, work, .. } = self;
+        let mut due = due.downward();
+        while let Some(s) = due.take() {
+            let stage = &stages[s as usize];
+            let value = std::mem::take(&mut work[s as usize]) * stage.reciprocal;
+            if value != 0.0 {
+                solution.push((stage.position, value));
+                for &(i, u) in &above[stage.range()] {
+                    work[i as usize] -= u * value;
+                    due.insert(i);
+                }
+            }
+        }
     }
 
     /// The entry of `B^-1 a` at a position that no later column of `U` reaches, straight from the spike.
     pub fn first_solved(&self, position: u32, spike: &SparseVector) -> Option<f64> {
-        let p = position as usize;
-        self.rows[p].is_empty().then(|| spike.get(position) / self.diagonal[p])
+        let s = self.stage[position as usize] as usize;
+        self.rows[s].is_empty().then(|| spike.get(position) * self.stages[s].reciprocal)
     }
 
     /// `B^-T c` in place.
     pub fn solve_transposed(&mut self, y: &mut SparseVector) {
-        self.topological(y.index(), Side::Rows);
-        y.list_all(&self.order);
-        back_substitute(&self.order, &self.rows, &self.diagonal, y.values());
+        self.seed(y);
+        y.clear();
+        self.solve_rows(|position, value| y.set(position, value));
         let Self { operations, writers, due, .. } = self;
         due.reset(operations.len());
-        y.index().iter().for_each(|&i| due.insert_all(&writers[i as usize], 0..u32::MAX));
-        while let Some(id) = due.take_last() {
+        y.index().iter().for_each(|&i| due.insert_all(&writers[i as usize]));
+        let mut due = due.downward();
+        while let Some(id) = due.take() {
             let operation = &operations[id as usize];
             let value = y.get(operation.target);
             if value != 0.0 {
                 for &(row, factor) in &operation.terms {
                     if y.list(row) {
-                        due.insert_all(&writers[row as usize], 0..id);
+                        due.insert_before(id, &writers[row as usize]);
                     }
                     y.add(row, -factor * value);
+                }
+            }
+        }
+    }
+
+    /// Takes a right-hand side, by position, into the work vector.
+    fn seed(&mut self, x: &SparseVector) {
+        self.due.reset(self.stages.len());
+        for (i, value) in x.iter() {
+            let stage = self.stage[i as usize];
+            self.work[stage as usize] = value;
+            self.due.insert(stage);
+        }
+    }
+
+    /// `U^-T` of the work vector: the values that are not zero, by position, the earlier stages first.
+    fn solve_rows(&mut self, mut found: impl FnMut(u32, f64)) {
+        let Self { stages, rows, due, work, .. } = self;
+        let mut due = due.upward();
+        while let Some(s) = due.take() {
+            let stage = &stages[s as usize];
+            let value = std::mem::take(&mut work[s as usize]) * stage.reciprocal;
+            if value != 0.0 {
+                found(stage.position, value);
+                for &(right, u) in &rows[s as usize] {
+                    work[right as usize] -= u * value;
+                    due.insert(right);
                 }
             }
         }
@@ -135,49 +196,70 @@ impl BasisFactor {
     /// None (and no change) if the basis would become singular.
     pub fn replace(&mut self, position: u32, spike: &SparseVector) -> Option<Replacement> {
         let p = position as usize;
-        let terms = self.eliminate_row(position);
+        let old = self.stage[p];
+        let terms = self.eliminate_row(old);
         let diagonal = spike.get(position) - terms.iter().map(|&(q, r)| r * spike.get(q)).sum::<f64>();
         if diagonal.is_nan() || diagonal.abs() <= SINGULAR {
             return None;
         }
-        let column: Entries = spike.iter().filter(|&(i, value)| i != position && value != 0.0).collect();
-        let old_column = std::mem::replace(&mut self.columns[p], column);
-        for &(i, _) in &old_column {
-            drop_entry(&mut self.rows[i as usize], position);
-        }
-        let old_row = std::mem::take(&mut self.rows[p]);
-        for &(q, _) in &old_row {
-            drop_entry(&mut self.columns[q as usize], position);
-        }
-        for k in 0..self.columns[p].len() {
-            let (i, value) = self.columns[p][k];
-            self.rows[i as usize].push((position, value));
-        }
-        let operation = !terms.is_empty();
+        self.unlink(old);
+        let rate = diagonal * self.stages[old as usize].reciprocal;
         let growth = terms.iter().fold(0.0_f64, |growth, (_, factor)| growth.max(factor.abs()));
-        if operation {
+        self.undo.push(Undo { position, stage: old, operation: !terms.is_empty() });
+        if !terms.is_empty() {
             let id = self.operations.len() as u32;
             terms.iter().for_each(|&(row, _)| self.readers[row as usize].push(id));
             self.writers[p].push(id);
             self.operations.push(RowOperation { target: position, terms });
         }
-        let old_diagonal = std::mem::replace(&mut self.diagonal[p], diagonal);
-        self.undo.push(Undo { position, column: old_column, row: old_row, diagonal: old_diagonal, operation });
-        Some(Replacement { rate: diagonal / old_diagonal, growth })
+        let (new, start) = (self.stages.len() as u32, self.above.len());
+        for (i, value) in spike.iter().filter(|&(i, value)| i != position && value != 0.0) {
+            let stage = self.stage[i as usize];
+            self.above.push((stage, value));
+            self.rows[stage as usize].push((new, value));
+        }
+        let len = (self.above.len() - start) as u32;
+        self.stages.push(Stage { position, start: start as u32, len, reciprocal: diagonal.recip() });
+        self.rows.push(Vec::new());
+        self.work.push(0.0);
+        self.stage[p] = new;
+        Some(Replacement { rate, growth })
     }
 
-    /// The combination r of other rows of `U` with `row p - sum r_q row q = 0` right of the diagonal.
-    fn eliminate_row(&mut self, position: u32) -> Entries {
-        let mut v = std::mem::take(&mut self.work);
-        for &(q, value) in &self.rows[position as usize] {
-            v.set(q, value);
+    /// Takes a stage's column out of the rows it stands in, and its row out of the columns.
+    fn unlink(&mut self, stage: u32) {
+        let Self { stages, above, rows, .. } = self;
+        above[stages[stage as usize].range()].iter().for_each(|&(i, _)| drop_entry(&mut rows[i as usize], stage));
+        for &(q, _) in &rows[stage as usize] {
+            let column = &mut stages[q as usize];
+            let entries = &mut above[column.range()];
+            if let Some(place) = entries.iter().position(|&(i, _)| i == stage) {
+                entries.swap(place, column.len as usize - 1);
+                column.len -= 1;
+            }
         }
-        self.topological(v.index(), Side::Rows);
-        v.list_all(&self.order);
-        back_substitute(&self.order, &self.rows, &self.diagonal, v.values());
-        let terms = v.iter().filter(|&(_, factor)| factor != 0.0).collect();
-        v.clear();
-        self.work = v;
+    }
+
+    /// Undoes [`Self::unlink`].
+    fn link(&mut self, stage: u32) {
+        let Self { stages, above, rows, .. } = self;
+        above[stages[stage as usize].range()].iter().for_each(|&(i, value)| rows[i as usize].push((stage, value)));
+        for &(q, value) in &rows[stage as usize] {
+            let column = &mut stages[q as usize];
+            column.len += 1;
+            above[column.range().end - 1] = (stage, value);
+        }
+    }
+
+    /// The combination r of other rows of `U` with `row - sum r_q row q = 0` right of the diagonal; rows by position.
+    fn eliminate_row(&mut self, stage: u32) -> Entries {
+        self.due.reset(self.stages.len());
+        for &(q, value) in &self.rows[stage as usize] {
+            self.work[q as usize] = value;
+            self.due.insert(q);
+        }
+        let mut terms = Vec::new();
+        self.solve_rows(|position, factor| terms.push((position, factor)));
         terms
     }
 
@@ -189,7 +271,7 @@ impl BasisFactor {
     /// Takes back replacements, the last first.
     pub fn undo_to(&mut self, mark: usize) {
         while self.undo.len() > mark
-            && let Some(Undo { position, column, row, diagonal, operation }) = self.undo.pop()
+            && let Some(Undo { position, stage, operation }) = self.undo.pop()
         {
             let p = position as usize;
             if operation && let Some(last) = self.operations.pop() {
@@ -198,78 +280,30 @@ impl BasisFactor {
                 }
                 self.writers[p].pop();
             }
-            for (i, _) in std::mem::take(&mut self.columns[p]) {
-                drop_entry(&mut self.rows[i as usize], position);
-            }
-            column.iter().for_each(|&(i, value)| self.rows[i as usize].push((position, value)));
-            row.iter().for_each(|&(q, value)| self.columns[q as usize].push((position, value)));
-            self.columns[p] = column;
-            self.rows[p] = row;
-            self.diagonal[p] = diagonal;
+            let new = self.stage[p];
+            self.unlink(new);
+            self.above.truncate(self.stages[new as usize].start as usize);
+            self.stages.pop();
+            self.rows.pop();
+            self.work.pop();
+            self.link(stage);
+            self.stage[p] = stage;
         }
     }
 
     /// Back to the identity; nothing before can be undone.
     pub fn reset(&mut self) {
-        *self = Self::identity(self.diagonal.len());
+        *self = Self::identity(self.stage.len());
     }
 
     /// Stored numbers.
     pub fn entries(&self) -> usize {
-        let upper: usize = self.columns.iter().map(Vec::len).sum();
-        upper + self.diagonal.len() + self.operations.iter().map(|operation| operation.terms.len()).sum::<usize>()
-    }
-
-    /// Everything reachable from the seeds, in postorder: reversed, every entry comes before those it changes.
-    fn topological(&mut self, seeds: &[u32], side: Side) {
-        self.order.clear();
-        let lists = if side == Side::Columns { &self.columns } else { &self.rows };
-        for &seed in seeds {
-            if std::mem::replace(&mut self.visited[seed as usize], true) {
-                continue;
-            }
-            self.stack.push((seed, 0));
-            while let Some((node, next)) = self.stack.last_mut() {
-                match lists[*node as usize].get(*next as usize) {
-                    Some(&(child, _)) => {
-                        *next += 1;
-                        if !std::mem::replace(&mut self.visited[child as usize], true) {
-                            self.stack.push((child, 0));
-                        }
-                    }
-                    None => {
-                        self.order.push(*node);
-                        self.stack.pop();
-                    }
-                }
-            }
-        }
-        for &node in &self.order {
-            self.visited[node as usize] = false;
-        }
+        let upper: usize = self.stage.iter().map(|&stage| 1 + self.stages[stage as usize].len as usize).sum();
+        upper + self.operations.iter().map(|operation| operation.terms.len()).sum::<usize>()
     }
 }
 
-/// Solves with a triangle whose entries that matter are listed in postorder.
-fn back_substitute(order: &[u32], lists: &[Entries], diagonal: &[f64], x: &mut [f64]) {
-    for &p in order.iter().rev() {
-        let value = x[p as usize] / diagonal[p as usize];
-        x[p as usize] = value;
-        if value != 0.0 {
-            for &(i, u) in &lists[p as usize] {
-                x[i as usize] -= u * value;
-            }
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Columns,
-    Rows,
-}
-
-/// Removes the first entry with this index.
+/// Removes the entry with this index.
 fn drop_entry(entries: &mut Entries, index: u32) {
     if let Some(place) = entries.iter().position(|&(i, _)| i == index) {
         entries.swap_remove(place);

@@ -40,7 +40,7 @@ enum Basic {
 struct Blocking {
     position: u32,
     ratio: f64,
-    size: f64,
+    rate: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -75,23 +75,25 @@ pub struct ConeSolver {
     present: Vec<bool>,
     rows: Vec<u32>,
     x: Vec<f64>,
+    /// Force of each column: its basic value, zero where that is negative or the column is not basic.
+    force: Vec<f64>,
     /// Positions that may be infeasible.
     suspects: Vec<u32>,
     pricing: Pricing,
     y: SparseVector,
-    direction: SparseVector,
+    /// `B^-1 g` as (position, rate); nothing that is zero.
+    direction: Vec<(u32, f64)>,
     spike: SparseVector,
     blocking: Vec<Blocking>,
-    /// `G f - h` of every present row as of the last check, the worst of them since all were summed, and the largest
-    /// value seen.
+    /// `G f - h` of every present row, and since all were summed from nothing the worst of them and the largest force.
     balance: Vec<f64>,
     worst: f64,
     size: f64,
-    /// Positions whose value changed since the last check, columns that left, and rows to sum again.
+    /// Columns whose force changed since the last check, and rows that came since.
     changed: Vec<u32>,
-    is_changed: Vec<bool>,
-    left: Vec<u32>,
-    stale: Vec<u32>,
+    new_rows: Vec<u32>,
+    /// Checks since every row was summed from nothing.
+    carried: usize,
     changes: Vec<Change>,
     /// Values overwritten since the last mark, to restore it exactly.
     overwritten: Vec<(u32, f64)>,
@@ -162,19 +164,19 @@ impl ConeSolver {
             present: vec![false; m],
             rows: Vec::new(),
             x: vec![0.0; m],
+            force: vec![0.0; n],
             suspects: Vec::new(),
             pricing: Pricing::new(n),
             y: SparseVector::zero(m),
-            direction: SparseVector::zero(m),
+            direction: Vec::new(),
             spike: SparseVector::zero(m),
             blocking: Vec::new(),
             balance: vec![0.0; m],
             worst: 0.0,
             size: 1.0,
             changed: Vec::new(),
-            is_changed: vec![false; m],
-            left: Vec::new(),
-            stale: Vec::new(),
+            new_rows: Vec::new(),
+            carried: 0,
             changes: Vec::new(),
             overwritten: Vec::new(),
             last_mark: None,
@@ -202,10 +204,7 @@ impl ConeSolver {
 
     /// `f_j`, in the caller's unit.
     pub fn f(&self, j: usize) -> f64 {
-        match self.position[j] {
-            OUT => 0.0,
-            position => self.x[position as usize].max(0.0) * self.column_scale[j],
-        }
+        self.force[j] * self.column_scale[j]
     }
 
     /// After [`Membership::Outside`]: the nonzero multipliers y, one for each row, in units that make `y' G` consistent.
@@ -233,7 +232,8 @@ impl ConeSolver {
             }
             self.basic[row] = Basic::Unit;
             self.x[row] = self.h[row];
-            self.change(row as u32);
+            self.balance[row] = -self.h[row];
+            self.new_rows.push(row as u32);
             self.suspects.push(row as u32);
         }
     }
@@ -248,7 +248,7 @@ impl ConeSolver {
                 Some(Membership::Inside) => {
                     self.residual = self.imbalance();
                     if self.residual > ROUNDING {
-                        self.recheck_all(); // the worst may be of long ago
+                        self.sum_rows(); // the worst may be of long ago
                         self.residual = self.imbalance();
                     }
                     if self.residual > ROUNDING && refined < REFINEMENTS {

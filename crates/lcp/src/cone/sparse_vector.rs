@@ -37,18 +37,6 @@ impl SparseVector {
         new
     }
 
-    /// Lists entries that are about to be written through [`Self::values`].
-    pub fn list_all(&mut self, entries: &[u32]) {
-        for &i in entries {
-            self.list(i);
-        }
-    }
-
-    /// All values; entries that are not listed are zero and must stay so.
-    pub fn values(&mut self) -> &mut [f64] {
-        &mut self.value
-    }
-
     pub fn index(&self) -> &[u32] {
         &self.index
     }

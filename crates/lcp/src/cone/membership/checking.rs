@@ -1,95 +1,80 @@
 //! The checks on an answer: the imbalance of forces, the signs of a certificate, refinement.
 
-use super::{Basic, ConeSolver, OUT, RATE};
+use super::{Basic, ConeSolver, RATE};
+
+/// Checks between two summations of every row from nothing. In between the sums are carried along with the forces that
+/// change; each change rounds by 1e-16 of the largest force, so that they stay right to some 1e-12.
+const CARRIED: usize = 1000;
 
 impl ConeSolver {
-    /// Largest `|G f - h|` of a present row, relative to the largest column times its value, from `f` itself. If few
-    /// values changed since the last time, only the rows of their columns are summed again; the others' stands.
+    /// Largest `|G f - h|` of a present row, relative to the largest column times its value. Only the rows of columns
+    /// whose force changed since the last check are looked at; the others' worst stands.
     pub(super) fn imbalance(&mut self) -> f64 {
-        if 4 * self.changed.len() > self.rows.len() {
-            self.sum_all_rows();
-        } else {
-            self.sum_changed_rows();
+        if self.carried >= CARRIED {
+            self.sum_rows();
         }
-        for &position in &self.changed {
-            self.is_changed[position as usize] = false;
+        self.carried += 1;
+        let mut worst = self.worst;
+        let mut look_at = |row: u32| worst = larger(worst, self.balance[row as usize].abs());
+        if 3 * self.changed.len() > self.rows.len() {
+            self.rows.iter().for_each(|&row| look_at(row));
+        } else {
+            self.new_rows.iter().for_each(|&row| look_at(row));
+            self.changed.iter().for_each(|&j| self.g.column(j).iter().for_each(|&(row, _)| look_at(row)));
         }
         self.changed.clear();
-        self.left.clear();
-        self.worst / self.size
+        self.new_rows.clear();
+        self.worst = worst;
+        worst / self.size
     }
 
-    pub(super) fn sum_all_rows(&mut self) {
+    /// Sums every row from nothing.
+    pub(super) fn sum_rows(&mut self) {
+        (self.carried, self.worst, self.size) = (0, 0.0, 1.0);
         for &row in &self.rows {
             self.balance[row as usize] = -self.h[row as usize];
         }
-        self.size = 1.0;
         for &p in &self.rows {
             if let Basic::Column(j) = self.basic[p as usize] {
-                let f = self.x[p as usize].max(0.0);
-                self.size = self.size.max(f);
+                let force = self.force[j as usize];
+                self.size = self.size.max(force);
                 for &(row, value) in self.g.column(j) {
-                    self.balance[row as usize] += f * value;
+                    self.balance[row as usize] += force * value;
                 }
             }
         }
-        self.worst = self.rows.iter().fold(0.0_f64, |worst, &row| worst.max(self.balance[row as usize].abs()));
+        self.new_rows.clone_from(&self.rows);
     }
 
-    pub(super) fn sum_changed_rows(&mut self) {
-        self.stale.clear();
-        self.stale.extend(&self.changed);
-        for &position in &self.changed {
-            self.is_changed[position as usize] = false;
-            if let Basic::Column(j) = self.basic[position as usize] {
-                self.size = self.size.max(self.x[position as usize]);
-                self.left.push(j);
-            }
-        }
-        for &j in &self.left {
-            self.stale.extend(self.g.column(j).iter().map(|&(row, _)| row));
-        }
-        for &row in &self.stale {
-            if std::mem::replace(&mut self.is_changed[row as usize], true) || !self.present[row as usize] {
-                continue;
-            }
-            let force = |&(j, value): &(u32, f64)| match self.position[j as usize] {
-                OUT => 0.0,
-                position => value * self.x[position as usize].max(0.0),
-            };
-            let sum: f64 = self.g.columns_of(row).iter().map(force).sum();
-            self.balance[row as usize] = sum - self.h[row as usize];
-            self.worst = self.worst.max(self.balance[row as usize].abs());
-        }
-        for &row in &self.stale {
-            self.is_changed[row as usize] = false;
+    /// Sets a basic value.
+    pub(super) fn set_value(&mut self, position: u32, value: f64) {
+        self.x[position as usize] = value;
+        if let Basic::Column(j) = self.basic[position as usize] {
+            self.set_force(j, value.max(0.0));
         }
     }
 
-    /// Every row is to be summed again.
-    pub(super) fn recheck_all(&mut self) {
-        for k in 0..self.rows.len() {
-            self.change(self.rows[k]);
+    /// Sets the force of a column, and what its rows feel of it.
+    pub(super) fn set_force(&mut self, j: u32, force: f64) {
+        let change = force - std::mem::replace(&mut self.force[j as usize], force);
+        if force > self.size {
+            self.size = force;
         }
-    }
-
-    /// Notes that the value in a position is about to change.
-    pub(super) fn change(&mut self, position: u32) {
-        if !std::mem::replace(&mut self.is_changed[position as usize], true) {
-            self.changed.push(position);
+        for &(row, value) in self.g.column(j) {
+            self.balance[row as usize] += change * value;
         }
+        self.changed.push(j);
     }
 
     /// One step of iterative refinement on every basic value, from the imbalance just computed.
     pub(super) fn refine(&mut self) {
-        self.direction.clear();
-        for k in 0..self.rows.len() {
-            let row = self.rows[k];
+        self.spike.clear();
+        for &row in &self.rows {
             let unit = if self.basic[row as usize] == Basic::Unit { self.x[row as usize] } else { 0.0 };
-            self.direction.set(row, -self.balance[row as usize] - unit);
+            self.spike.set(row, -self.balance[row as usize] - unit);
         }
-        self.factor.apply_operations(&mut self.direction);
-        self.factor.solve_upper(&mut self.direction);
+        self.factor.apply_operations(&mut self.spike);
+        self.direction_from_spike();
         self.step(-1.0);
     }
 
@@ -102,5 +87,17 @@ impl ConeSolver {
             self.missing[j as usize] == 0 && rate > 10.0 * RATE * size
         };
         power > 0.0 && !self.y.iter().any(|(row, _)| self.g.columns_of(row).iter().any(rises))
+    }
+}
+
+/// The larger one, infinite for NaN. A branch that is seldom taken: in a long row of numbers it waits for none of those
+/// before, as `f64::max` does.
+fn larger(so_far: f64, value: f64) -> f64 {
+    if value <= so_far {
+        so_far
+    } else if value.is_nan() {
+        f64::INFINITY
+    } else {
+        value
     }
 }

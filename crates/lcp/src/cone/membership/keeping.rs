@@ -1,6 +1,6 @@
 //! What is kept: marks to return to, and the factor built again when its digits are worn.
 
-use super::{Basic, Change, ConeSolver, Mark, OUT, PIVOT, infeasible};
+use super::{Basic, Change, ConeSolver, Mark, PIVOT, infeasible};
 
 impl ConeSolver {
     /// The state as it is, to come back to with [`Self::roll_back`]. Marks are taken back last first.
@@ -27,7 +27,7 @@ impl ConeSolver {
         {
             match change {
                 Change::Pivot { position, entered, left } if same_positions => {
-                    self.position[entered as usize] = OUT;
+                    self.take_out(entered);
                     self.put(position, left);
                 }
                 Change::Pivot { entered, left, .. } => {
@@ -50,8 +50,7 @@ impl ConeSolver {
         if exact {
             self.suspects.clear();
             while let Some((position, value)) = self.overwritten.pop() {
-                self.change(position);
-                self.x[position as usize] = value;
+                self.set_value(position, value);
             }
             self.rows.truncate(mark.rows);
         } else {
@@ -95,15 +94,15 @@ impl ConeSolver {
         self.factor.reset();
         self.suspects.clear();
         for j in self.basic_columns() {
-            self.position[j as usize] = OUT;
+            self.take_out(j);
         }
         self.rows.iter().for_each(|&p| self.basic[p as usize] = Basic::Unit);
         for &j in columns {
             self.column_spike(j);
             self.direction_from_spike();
-            let free = |&(p, _): &(u32, f64)| self.basic[p as usize] == Basic::Unit;
+            let free = |&&(p, _): &&(u32, f64)| self.basic[p as usize] == Basic::Unit;
             let best = self.direction.iter().filter(free).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some((p, _)) = best.filter(|best| best.1.abs() > PIVOT) else { continue };
+            let Some(&(p, _)) = best.filter(|best| best.1.abs() > PIVOT) else { continue };
             if self.factor.replace(p, &self.spike).is_none() {
                 return false;
             }
@@ -120,21 +119,24 @@ impl ConeSolver {
 
     /// `x = B^-1 h` on the present rows.
     pub(super) fn recompute_values(&mut self) {
-        self.direction.clear();
+        self.spike.clear();
         for &row in &self.rows {
-            self.direction.set(row, self.h[row as usize]);
+            self.spike.set(row, self.h[row as usize]);
         }
-        self.factor.apply_operations(&mut self.direction);
-        self.factor.solve_upper(&mut self.direction);
-        self.recheck_all();
+        self.factor.apply_operations(&mut self.spike);
+        self.direction_from_spike();
         for k in 0..self.rows.len() {
             let row = self.rows[k];
             self.remember(row);
-            let value = self.direction.get(row);
-            self.x[row as usize] = value;
-            if infeasible(self.basic[row as usize], value) != 0.0 {
-                self.suspects.push(row);
+            self.set_value(row, 0.0);
+        }
+        for k in 0..self.direction.len() {
+            let (p, value) = self.direction[k];
+            self.set_value(p, value);
+            if infeasible(self.basic[p as usize], value) != 0.0 {
+                self.suspects.push(p);
             }
         }
+        self.sum_rows();
     }
 }

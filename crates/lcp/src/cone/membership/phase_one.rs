@@ -39,8 +39,8 @@ impl ConeSolver {
                 Some((row, rate)) => (0.0, row, rate),
                 None => {
                     self.direction_from_spike();
-                    let (step, leaving) = self.ratio_test(least_index)?;
-                    (step, leaving, self.direction.get(leaving))
+                    let blocking = self.ratio_test(least_index)?;
+                    (blocking.ratio, blocking.position, blocking.rate)
                 }
             };
             if step > 0.0 {
@@ -72,11 +72,7 @@ impl ConeSolver {
 
     /// `B^-1 g`.
     pub(super) fn direction_from_spike(&mut self) {
-        self.direction.clear();
-        for (row, value) in self.spike.iter() {
-            self.direction.set(row, value);
-        }
-        self.factor.solve_upper(&mut self.direction);
+        self.factor.solve_upper(&self.spike, &mut self.direction);
     }
 
     /// A row in balance that the spike alone shows to block the step at once, which saves the direction. Of several the
@@ -94,11 +90,11 @@ impl ConeSolver {
 
     /// How far the entering column can go until a basic value reaches zero, and which. A unit column at zero allows
     /// no step: a balanced row stays balanced.
-    pub(super) fn ratio_test(&mut self, least_index: bool) -> Option<(f64, u32)> {
+    pub(super) fn ratio_test(&mut self, least_index: bool) -> Option<Blocking> {
         let slack = if least_index { 0.0 } else { SLACK };
         let mut bound = f64::INFINITY;
         self.blocking.clear();
-        for (p, rate) in self.direction.iter() {
+        for &(p, rate) in &self.direction {
             let size = rate.abs();
             if size <= PIVOT {
                 continue;
@@ -119,19 +115,19 @@ impl ConeSolver {
             };
             let reach = (room + slack) / size;
             if room / size <= bound {
-                self.blocking.push(Blocking { position: p, ratio: room / size, size });
+                self.blocking.push(Blocking { position: p, ratio: room / size, rate });
                 bound = bound.min(reach);
             }
         }
         let order = |b: &Blocking| {
             let unit = self.basic[b.position as usize] == Basic::Unit;
-            (!unit, if least_index { 0.0 } else { -b.size }, self.leaving_index(b.position))
+            (!unit, if least_index { 0.0 } else { -b.rate.abs() }, self.leaving_index(b.position))
         };
         self.blocking
             .iter()
             .filter(|b| b.ratio <= bound)
             .min_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal))
-            .map(|b| (b.ratio, b.position))
+            .copied()
     }
 
     pub(super) fn leaving_index(&self, p: u32) -> u32 {
@@ -142,16 +138,14 @@ impl ConeSolver {
     }
 
     pub(super) fn step(&mut self, step: f64) {
-        for (p, rate) in self.direction.iter() {
-            let x = &mut self.x[p as usize];
-            if self.last_mark.is_some() {
-                self.overwritten.push((p, *x));
-            }
-            if !std::mem::replace(&mut self.is_changed[p as usize], true) {
-                self.changed.push(p);
-            }
-            *x -= step * rate;
-            if infeasible(self.basic[p as usize], *x) != 0.0 {
+        if self.last_mark.is_some() {
+            self.overwritten.extend(self.direction.iter().map(|&(p, _)| (p, self.x[p as usize])));
+        }
+        for k in 0..self.direction.len() {
+            let (p, rate) = self.direction[k];
+            let value = self.x[p as usize] - step * rate;
+            self.set_value(p, value);
+            if infeasible(self.basic[p as usize], value) != 0.0 {
                 self.suspects.push(p);
             }
         }
@@ -166,15 +160,19 @@ impl ConeSolver {
         self.counts.major_cycles += 1;
         let left = self.basic[leaving as usize];
         if let Basic::Column(j) = left {
-            self.position[j as usize] = OUT;
-            self.left.push(j);
+            self.take_out(j);
         }
-        self.change(leaving);
         self.changes.push(Change::Pivot { position: leaving, entered: entering, left });
         self.put(leaving, Basic::Column(entering));
         self.remember(leaving);
-        self.x[leaving as usize] = step;
+        self.set_value(leaving, step);
         Some(())
+    }
+
+    /// A column is not basic any more.
+    pub(super) fn take_out(&mut self, j: u32) {
+        self.position[j as usize] = OUT;
+        self.set_force(j, 0.0);
     }
 
     pub(super) fn put(&mut self, position: u32, basic: Basic) {
