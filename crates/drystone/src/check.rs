@@ -106,7 +106,7 @@ pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
     let (found, equilibrium) = equilibrium_of(assembly, blocks);
     if found == Membership::Inside {
         let (counts, residual) = (equilibrium.counts(), equilibrium.residual());
-        return verdict(assembly, blocks, |j| equilibrium.f(j), Status::Solved, counts, residual);
+        return verdict(assembly, blocks, |j| assembly.magnitude(&equilibrium, j), Status::Solved, counts, residual);
     }
     solve_complementarity(assembly, blocks, equilibrium.counts())
 }

@@ -2,7 +2,7 @@
 
 use super::{
     block_set::BlockSet,
-    generator::{Generator, generators_of},
+    generator::{Bodies, Generator, axis_share},
 };
 use crate::{
     contact::{Contact, ContactSet, find_contacts},
@@ -22,6 +22,9 @@ pub struct Assembly {
     contacts: ContactSet,
     movable: Vec<usize>,
     generators: Vec<Generator>,
+    /// Axes of the cones of the contacts that have friction, and which of them is a contact's.
+    axes: Vec<Generator>,
+    axis_of: Vec<Option<usize>>,
     /// Generators that act on each movable block.
     generators_on: Vec<Vec<usize>>,
     /// Diagonal of `M^-1` for each movable block: 1/kg, 1/kg, 1/(kg m^2).
@@ -54,12 +57,13 @@ impl Assembly {
         for (block, &body) in movable.iter().enumerate() {
             block_of[body] = Some(block);
         }
-        let generators: Vec<Generator> = contacts
-            .contacts
-            .iter()
-            .enumerate()
-            .flat_map(|(index, contact)| generators_of(index, contact, &bodies, |body| block_of[body]))
-            .collect();
+        let spanning = Bodies { bodies: &bodies, movable: |body: usize| block_of[body] };
+        let points = || contacts.contacts.iter().enumerate();
+        let generators: Vec<Generator> =
+            points().flat_map(|(index, contact)| spanning.generators(index, contact)).collect();
+        let axes: Vec<Generator> = points().filter_map(|(index, contact)| spanning.axis(index, contact)).collect();
+        let mut axis_of = vec![None; contacts.contacts.len()];
+        axes.iter().enumerate().for_each(|(k, axis)| axis_of[axis.contact] = Some(k));
         let mut generators_on = vec![Vec::new(); movable.len()];
         for (j, generator) in generators.iter().enumerate() {
             for wrench in &generator.wrenches {
@@ -73,7 +77,17 @@ impl Assembly {
                 [mass.recip(), mass.recip(), inertia.recip()]
             })
             .collect();
-        Ok(Self { gravity: scene.gravity(), bodies, contacts, movable, generators, generators_on, inverse_mass })
+        Ok(Self {
+            gravity: scene.gravity(),
+            bodies,
+            contacts,
+            movable,
+            generators,
+            axes,
+            axis_of,
+            generators_on,
+            inverse_mass,
+        })
     }
 
     /// Number of movable blocks.
@@ -131,12 +145,16 @@ impl Assembly {
     /// Balkcom: a sub-assembly's problem is the principal sub-problem on [`Self::rows`] of its blocks.
     pub fn problem(&self) -> Problem {
         let inverse_mass = self.inverse_mass.as_flattened();
-        Problem::from_generators(&self.columns(), inverse_mass, &self.balance())
+        Problem::from_generators(&self.columns(self.generators.iter()), inverse_mass, &self.balance())
             .expect("a validated scene has finite masses, positions and directions")
     }
 
     /// Static equilibrium `G f = -F`, `f >= 0` of the complete assembly, without any block yet. Imbalance is measured in
     /// each block's own weight, moments with its radius of gyration as the arm.
+    ///
+    /// Beside the generators, whose columns come first, it has the axis of every friction cone, and tries these first:
+    /// what stands by straight pressure alone is then held by few forces, and the basis of its columns is far sparser.
+    /// [`Self::magnitude`] gives such a force back to the edges.
     pub fn equilibrium(&self) -> ConeSolver {
         let [gx, gy] = self.gravity;
         let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
@@ -146,14 +164,26 @@ impl Assembly {
             [weight, weight, weight * (per_mass / per_inertia).sqrt()]
         };
         let units: Vec<f64> = (0..self.blocks()).flat_map(unit).collect();
-        ConeSolver::new(self.columns(), &self.balance(), &units)
-            .expect("a validated scene has finite masses, positions and directions")
+        let columns = self.columns(self.generators.iter().chain(&self.axes));
+        let axes = self.generators.len()..columns.len();
+        let mut solver = ConeSolver::new(columns, &self.balance(), &units)
+            .expect("a validated scene has finite masses, positions and directions");
+        solver.prefer(axes);
+        solver
     }
 
-    /// The generators as the columns of G, three rows a block.
-    fn columns(&self) -> Columns {
+    /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.
+    pub fn magnitude(&self, solver: &ConeSolver, generator: usize) -> f64 {
+        let contact = self.generators[generator].contact;
+        let straight = self.axis_of[contact]
+            .map_or(0.0, |axis| axis_share(&self.contacts()[contact]) * solver.f(self.generators.len() + axis));
+        solver.f(generator) + straight
+    }
+
+    /// Generators as the columns of G, three rows a block.
+    fn columns<'a>(&self, generators: impl Iterator<Item = &'a Generator>) -> Columns {
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
-        for generator in &self.generators {
+        for generator in generators {
             for wrench in &generator.wrenches {
                 let entries = Self::equilibrium_rows(wrench.block).into_iter().zip(wrench.value);
                 for (row, value) in entries.filter(|&(_, value)| value != 0.0) {

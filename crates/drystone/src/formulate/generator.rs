@@ -34,26 +34,40 @@ fn cone_edges(contact: &Contact) -> Vec<[f64; 2]> {
     [mu, -mu].map(|side| [(nx - side * ny) / length, (ny + side * nx) / length]).to_vec()
 }
 
-/// The generators of one contact. `movable` gives a body's index among the movable blocks.
-pub(super) fn generators_of(
-    index: usize,
-    contact: &Contact,
-    bodies: &[Body],
-    movable: impl Fn(usize) -> Option<usize>,
-) -> Vec<Generator> {
-    let wrench = |body: usize, [dx, dy]: [f64; 2]| {
-        let block = movable(body)?;
-        let [cx, cy] = bodies[body].pose.position;
+/// Bodies of a scene, and which of them move.
+pub(super) struct Bodies<'a, F: Fn(usize) -> Option<usize>> {
+    pub bodies: &'a [Body],
+    /// A body's index among the movable blocks.
+    pub movable: F,
+}
+
+impl<F: Fn(usize) -> Option<usize>> Bodies<'_, F> {
+    /// The generators of one contact.
+    pub fn generators(&self, index: usize, contact: &Contact) -> Vec<Generator> {
+        cone_edges(contact).into_iter().map(|direction| self.generator(index, contact, direction)).collect()
+    }
+
+    /// The axis of a contact's cone, where that is not its only generator. It adds no force that the edges do not have,
+    /// but one number instead of two says that a contact is pressed straight.
+    pub fn axis(&self, index: usize, contact: &Contact) -> Option<Generator> {
+        (contact.friction > 0.0).then(|| self.generator(index, contact, contact.normal))
+    }
+
+    fn generator(&self, index: usize, contact: &Contact, direction: [f64; 2]) -> Generator {
+        let [a, b] = contact.bodies;
+        let parts = [self.wrench(contact, a, direction.map(|d| -d)), self.wrench(contact, b, direction)];
+        Generator { contact: index, direction, wrenches: parts.into_iter().flatten().collect() }
+    }
+
+    fn wrench(&self, contact: &Contact, body: usize, [dx, dy]: [f64; 2]) -> Option<Wrench> {
+        let block = (self.movable)(body)?;
+        let [cx, cy] = self.bodies[body].pose.position;
         let (rx, ry) = (contact.point[0] - cx, contact.point[1] - cy);
         Some(Wrench { block, value: [dx, dy, rx * dy - ry * dx] })
-    };
-    let [a, b] = contact.bodies;
-    cone_edges(contact)
-        .into_iter()
-        .map(|direction| Generator {
-            contact: index,
-            direction,
-            wrenches: [wrench(a, direction.map(|d| -d)), wrench(b, direction)].into_iter().flatten().collect(),
-        })
-        .collect()
+    }
+}
+
+/// What a force of one newton along a contact's axis is in each of its two edges, newtons.
+pub(super) fn axis_share(contact: &Contact) -> f64 {
+    0.5 * contact.friction.hypot(1.0)
 }

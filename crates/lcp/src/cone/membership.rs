@@ -187,6 +187,11 @@ impl ConeSolver {
         })
     }
 
+    /// Columns that enter before all others: as long as one of them lowers the imbalance, no other is looked at.
+    pub fn prefer(&mut self, columns: std::ops::Range<usize>) {
+        self.pricing.prefer(columns.start as u32..columns.end as u32);
+    }
+
     /// Work done since the solver was made; every pivot is a major cycle here.
     pub fn counts(&self) -> Counts {
         self.counts
@@ -196,6 +201,7 @@ impl ConeSolver {
     pub fn residual(&self) -> f64 {
         self.residual
     }
+
 
     /// Numbers stored in the factor.
     pub fn entries(&self) -> usize {
