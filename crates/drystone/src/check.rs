@@ -93,12 +93,11 @@ pub fn stands(scene: &Scene) -> Result<bool, SceneError> {
 /// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports.
 fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
     let mut equilibrium = assembly.equilibrium();
-    let mut found = Membership::Inside;
     for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {
         equilibrium.add_rows(&Assembly::equilibrium_rows(block));
-        found = equilibrium.solve();
+        equilibrium.decide();
     }
-    (found, equilibrium)
+    (equilibrium.solve(), equilibrium)
 }
 
 /// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.

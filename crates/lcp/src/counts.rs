@@ -14,7 +14,8 @@ pub struct Counts {
     pub refactorisations: usize,
     /// Rows put into the factor of the active block and taken out of it. [`Solver`](crate::Solver) only.
     pub factor_rows: usize,
-    /// Stored numbers of the factor read by triangular solves, both ways. [`Solver`](crate::Solver) only.
+    /// Stored numbers of the factor read by triangular solves, both ways; of [`ConeSolver`](crate::cone::ConeSolver) those
+    /// of the upper triangle.
     pub entries_solved: usize,
 }
 

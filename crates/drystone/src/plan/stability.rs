@@ -169,7 +169,9 @@ impl StabilityTest for Reuse {
         self.at_current = false;
         let before = self.solver.counts().pivots;
         self.solver.add_rows(&Assembly::equilibrium_rows(added));
-        let stands = match self.solver.solve() {
+        // The last test before the structure is complete brings all forces up to date, and checks them.
+        let last = blocks.len() + 1 == self.loads.len();
+        let stands = match if last { self.solver.solve() } else { self.solver.decide() } {
             Membership::Inside => true,
             Membership::Outside => false,
             trouble => {

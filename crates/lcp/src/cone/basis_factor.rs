@@ -65,9 +65,22 @@ pub(super) struct BasisFactor {
     /// Operations that write a row, ascending.
     writers: Vec<Vec<u32>>,
     undo: Vec<Undo>,
+    /// Rows that came together have one number, later ones a larger one.
+    group: Vec<u32>,
+    /// Numbers read by triangular solves.
+    read: usize,
     due: Due,
     /// By stage; zero between solves.
     work: Vec<f64>,
+}
+
+/// How far a value is passed on in a walk through `U`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// To every row of its column.
+    All,
+    /// To the rows of its own group only.
+    Group,
 }
 
 /// What a replacement says about its accuracy.
@@ -93,6 +106,8 @@ impl BasisFactor {
             readers: vec![Vec::new(); n],
             writers: vec![Vec::new(); n],
             undo: Vec::new(),
+            group: vec![0; n],
+            read: 0,
             due: Due::default(),
             work: vec![0.0; n],
         }
@@ -119,20 +134,48 @@ impl BasisFactor {
     /// `U^-1 spike` as (position, value), the later stages first; nothing that is zero.
     pub fn solve_upper(&mut self, spike: &SparseVector, solution: &mut Vec<(u32, f64)>) {
         solution.clear();
+        self.walk_upper(spike, |position, value| {
+            solution.push((position, value));
+            Reach::All
+        });
+    }
+
+    /// `U^-1 spike`, the later stages first: `visit` sees each (position, value) that is not zero and says how far
+    /// the value is passed on. What it keeps back is missing from the values that follow.
+    pub fn walk_upper(&mut self, spike: &SparseVector, mut visit: impl FnMut(u32, f64) -> Reach) {
         self.seed(spike);
-        let Self { stages, above, due, work, .. } = self;
+        let Self { stages, above, due, work, group, read, .. } = self;
         let mut due = due.downward();
         while let Some(s) = due.take() {
             let stage = &stages[s as usize];
             let value = std::mem::take(&mut work[s as usize]) * stage.reciprocal;
-            if value != 0.0 {
-                solution.push((stage.position, value));
-                for &(i, u) in &above[stage.range()] {
-                    work[i as usize] -= u * value;
-                    due.insert(i);
+            if value == 0.0 {
+                continue;
+            }
+            *read += 1 + stage.len as usize;
+            let mut pass_on = |i: u32, u: f64| {
+                work[i as usize] -= u * value;
+                due.insert(i);
+            };
+            match visit(stage.position, value) {
+                Reach::All => above[stage.range()].iter().for_each(|&(i, u)| pass_on(i, u)),
+                Reach::Group => {
+                    let of = |stage: &Stage| group[stage.position as usize];
+                    let inside = |&&(i, _): &&(u32, f64)| of(&stages[i as usize]) == of(stage);
+                    above[stage.range()].iter().filter(inside).for_each(|&(i, u)| pass_on(i, u));
                 }
             }
         }
+    }
+
+    /// Puts a row into a group, whose number must be larger than all before.
+    pub fn set_group(&mut self, row: u32, group: u32) {
+        self.group[row as usize] = group;
+    }
+
+    /// The group of a row.
+    pub fn group(&self, row: u32) -> u32 {
+        self.group[row as usize]
     }
 
     /// The entry of `B^-1 a` at a position that no later column of `U` reaches, straight from the spike.
@@ -176,13 +219,14 @@ impl BasisFactor {
 
     /// `U^-T` of the work vector: the values that are not zero, by position, the earlier stages first.
     fn solve_rows(&mut self, mut found: impl FnMut(u32, f64)) {
-        let Self { stages, rows, due, work, .. } = self;
+        let Self { stages, rows, due, work, read, .. } = self;
         let mut due = due.upward();
         while let Some(s) = due.take() {
             let stage = &stages[s as usize];
             let value = std::mem::take(&mut work[s as usize]) * stage.reciprocal;
             if value != 0.0 {
                 found(stage.position, value);
+                *read += 1 + rows[s as usize].len();
                 for &(right, u) in &rows[s as usize] {
                     work[right as usize] -= u * value;
                     due.insert(right);
@@ -293,7 +337,13 @@ impl BasisFactor {
 
     /// Back to the identity; nothing before can be undone.
     pub fn reset(&mut self) {
-        *self = Self::identity(self.stage.len());
+        let (group, read) = (std::mem::take(&mut self.group), self.read);
+        *self = Self { group, read, ..Self::identity(self.stage.len()) };
+    }
+
+    /// Numbers read by triangular solves since the factor was made.
+    pub fn read(&self) -> usize {
+        self.read
     }
 
     /// Stored numbers.

@@ -6,8 +6,10 @@
 //!
 //! Dantzig, Linear Programming and Extensions (1963), chapter 5; the factor is [`BasisFactor`].
 
+mod bearing;
 mod checking;
 mod keeping;
+mod leaving;
 mod phase_one;
 
 use super::{basis_factor::BasisFactor, columns::Columns, pricing::Pricing, sparse_vector::SparseVector};
@@ -45,8 +47,20 @@ struct Blocking {
 
 #[derive(Debug, Clone, Copy)]
 enum Change {
+    /// A row came.
     Row(u32),
-    Pivot { position: u32, entered: u32, left: Basic },
+    Gone {
+        row: u32,
+        group: u32,
+    },
+    /// A column was found to bear; it is not known to any more.
+    Bears(u32),
+    Doubted(u32),
+    Pivot {
+        position: u32,
+        entered: Basic,
+        left: Basic,
+    },
 }
 
 /// A point to return to with [`ConeSolver::roll_back`].
@@ -54,9 +68,10 @@ enum Change {
 pub struct Mark {
     changes: usize,
     factor: usize,
-    rows: usize,
     /// Times the factor had been rebuilt: positions differ from one to the next.
     rebuilds: usize,
+    behind: bool,
+    feasible: bool,
 }
 
 /// Decides `h in cone(G)` on growing and shrinking sets of rows. A column takes part once all its rows are present.
@@ -75,7 +90,7 @@ pub struct ConeSolver {
     present: Vec<bool>,
     rows: Vec<u32>,
     x: Vec<f64>,
-    /// Force of each column: its basic value, zero where that is negative or the column is not basic.
+    /// Force of each column: its basic value, zero where it is not basic.
     force: Vec<f64>,
     /// Positions that may be infeasible.
     suspects: Vec<u32>,
@@ -94,6 +109,18 @@ pub struct ConeSolver {
     new_rows: Vec<u32>,
     /// Checks since every row was summed from nothing.
     carried: usize,
+    /// Columns known to bear, see `bearing.rs`.
+    bears: Vec<bool>,
+    /// Number of the newest group of rows, whether the next row starts another, and the groups' rows as rings.
+    groups: u32,
+    group_closed: bool,
+    next_in_group: Vec<u32>,
+    /// The newest group has pivots in other groups' rows, or other groups' columns.
+    mixed: bool,
+    /// Values below bearing columns are not up to date, for how many answers, and whether that is allowed.
+    behind: bool,
+    answers_behind: usize,
+    lazy: bool,
     changes: Vec<Change>,
     /// Values overwritten since the last mark, to restore it exactly.
     overwritten: Vec<(u32, f64)>,
@@ -123,6 +150,10 @@ const ROUNDING: f64 = 1e-12;
 const REFINEMENTS: usize = 3;
 /// Largest imbalance of a row of a solution, relative to the larger of `h` and the largest column times its value.
 const RESIDUAL: f64 = 1e-9;
+/// What is this small in an answer to a unit load is rounding.
+const ROUNDED: f64 = 1e-15;
+/// The values are brought up to date after as many answers, or as a sixteenth of the rows: little beside these answers.
+const MOST_BEHIND: usize = 64;
 /// A pivot computed along its row and along its column may differ by this share before the factor is built again.
 const DISAGREEMENT: f64 = 1e-8;
 /// Factors of a row operation above this cost too many digits.
@@ -177,6 +208,14 @@ impl ConeSolver {
             changed: Vec::new(),
             new_rows: Vec::new(),
             carried: 0,
+            bears: vec![false; n],
+            groups: 0,
+            group_closed: true,
+            next_in_group: vec![OUT; m],
+            mixed: false,
+            behind: false,
+            answers_behind: 0,
+            lazy: false,
             changes: Vec::new(),
             overwritten: Vec::new(),
             last_mark: None,
@@ -194,14 +233,13 @@ impl ConeSolver {
 
     /// Work done since the solver was made; every pivot is a major cycle here.
     pub fn counts(&self) -> Counts {
-        self.counts
+        Counts { entries_solved: self.factor.read(), ..self.counts }
     }
 
     /// Largest imbalance of a present row in the last solution, in the row's unit.
     pub fn residual(&self) -> f64 {
         self.residual
     }
-
 
     /// Numbers stored in the factor.
     pub fn entries(&self) -> usize {
@@ -210,7 +248,7 @@ impl ConeSolver {
 
     /// `f_j`, in the caller's unit.
     pub fn f(&self, j: usize) -> f64 {
-        self.force[j] * self.column_scale[j]
+        self.force[j].max(0.0) * self.column_scale[j]
     }
 
     /// After [`Membership::Outside`]: the nonzero multipliers y, one for each row, in units that make `y' G` consistent.
@@ -231,6 +269,7 @@ impl ConeSolver {
             if std::mem::replace(&mut self.present[row], true) {
                 continue;
             }
+            self.join_newest_group(row as u32);
             self.rows.push(row as u32);
             self.changes.push(Change::Row(row as u32));
             for &(j, _) in self.g.columns_of(row as u32) {
@@ -244,16 +283,37 @@ impl ConeSolver {
         }
     }
 
-    /// Decides whether `h` is in the cone of the present columns.
+    /// Decides whether `h` is in the cone of the present columns, and finds `f` if so.
     pub fn solve(&mut self) -> Membership {
+        self.catch_up();
+        self.lazy = false;
+        self.answer()
+    }
+
+    /// Decides whether `h` is in the cone of the present columns, without passing every load on to the ground: where what
+    /// is below was shown to bear (`bearing.rs`), the answer does not wait for its forces. [`Self::solve`] brings `f`
+    /// and the residual up to date; until then both are those of an earlier moment there.
+    pub fn decide(&mut self) -> Membership {
+        self.answers_behind += 1;
+        if self.answers_behind > MOST_BEHIND.max(self.rows.len() / 16) {
+            return self.solve();
+        }
+        self.lazy = true;
+        self.answer()
+    }
+
+    fn answer(&mut self) -> Membership {
         let limit = self.counts.pivots + 1000 + 50 * self.rows.len();
         let (mut rebuilt, mut refined) = (false, 0);
+        self.group_closed = true;
         loop {
             let found = self.phase_one(limit);
             let sound = match found {
                 Some(Membership::Inside) => {
+                    self.certify_newest();
                     self.residual = self.imbalance();
                     if self.residual > ROUNDING {
+                        self.behind = false; // the refinement passes everything on
                         self.sum_rows(); // the worst may be of long ago
                         self.residual = self.imbalance();
                     }

@@ -8,8 +8,16 @@ const CARRIED: usize = 1000;
 
 impl ConeSolver {
     /// Largest `|G f - h|` of a present row, relative to the largest column times its value. Only the rows of columns
-    /// whose force changed since the last check are looked at; the others' worst stands.
+    /// whose force changed since the last check are looked at; the others' worst stands. While values are behind, only
+    /// the rows that came are.
     pub(super) fn imbalance(&mut self) -> f64 {
+        if self.behind {
+            let largest = self.new_rows.iter().fold(0.0, |worst, &row| larger(worst, self.balance[row as usize].abs()));
+            self.new_rows.clear();
+            self.changed.clear();
+            return largest / self.size;
+        }
+        self.answers_behind = 0;
         if self.carried >= CARRIED {
             self.sum_rows();
         }
@@ -22,10 +30,13 @@ impl ConeSolver {
             self.new_rows.iter().for_each(|&row| look_at(row));
             self.changed.iter().for_each(|&j| self.g.column(j).iter().for_each(|&(row, _)| look_at(row)));
         }
+        // What rounding left below zero is given out as zero.
+        let pulling = |&j: &u32| (-self.force[j as usize]).max(0.0);
+        let pull: f64 = self.changed.iter().map(pulling).sum();
         self.changed.clear();
         self.new_rows.clear();
         self.worst = worst;
-        worst / self.size
+        (worst + pull) / self.size
     }
 
     /// Sums every row from nothing.
@@ -50,7 +61,7 @@ impl ConeSolver {
     pub(super) fn set_value(&mut self, position: u32, value: f64) {
         self.x[position as usize] = value;
         if let Basic::Column(j) = self.basic[position as usize] {
-            self.set_force(j, value.max(0.0));
+            self.set_force(j, value);
         }
     }
 
@@ -66,27 +77,39 @@ impl ConeSolver {
         self.changed.push(j);
     }
 
-    /// One step of iterative refinement on every basic value, from the imbalance just computed.
+    /// One step of iterative refinement on every basic value, from the sums of the rows.
     pub(super) fn refine(&mut self) {
+        let rows = std::mem::take(&mut self.rows);
+        self.pass_on(&rows);
+        self.rows = rows;
+    }
+
+    /// Balances some rows, by changing whatever values that takes.
+    pub(super) fn pass_on(&mut self, rows: &[u32]) {
         self.spike.clear();
-        for &row in &self.rows {
+        for &row in rows.iter().filter(|&&row| self.present[row as usize]) {
             let unit = if self.basic[row as usize] == Basic::Unit { self.x[row as usize] } else { 0.0 };
-            self.spike.set(row, -self.balance[row as usize] - unit);
+            let lacking = -self.balance[row as usize] - unit;
+            if lacking != 0.0 {
+                self.spike.set(row, lacking);
+            }
         }
         self.factor.apply_operations(&mut self.spike);
         self.direction_from_spike();
         self.step(-1.0);
     }
 
-    /// Whether y proves that `h` is outside: `y' g <= 0` for every present column, up to rounding, and `y' h > 0`.
+    /// Whether y proves that `h` is outside: `y' g <= 0` for every present column, up to rounding, and `y' h > 0`, which is
+    /// the infeasibility that is left by another route: if they differ, the values are worn.
     pub(super) fn certifies(&self) -> bool {
         let size = self.y.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
         let power: f64 = self.y.iter().map(|(row, value)| value * self.h[row as usize]).sum();
+        let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
         let rises = |&(j, _): &(u32, f64)| {
             let rate: f64 = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row)).sum();
             self.missing[j as usize] == 0 && rate > 10.0 * RATE * size
         };
-        power > 0.0 && !self.y.iter().any(|(row, _)| self.g.columns_of(row).iter().any(rises))
+        power > 0.5 * infeasibility && !self.y.iter().any(|(row, _)| self.g.columns_of(row).iter().any(rises))
     }
 }
 

@@ -8,8 +8,9 @@ impl ConeSolver {
         let mark = Mark {
             changes: self.changes.len(),
             factor: self.factor.mark(),
-            rows: self.rows.len(),
             rebuilds: self.counts.refactorisations,
+            behind: self.behind,
+            feasible: self.suspects.is_empty(),
         };
         self.overwritten.clear();
         self.last_mark = Some(mark);
@@ -21,25 +22,44 @@ impl ConeSolver {
     pub fn roll_back(&mut self, mark: Mark) {
         let same_positions = mark.rebuilds == self.counts.refactorisations;
         let exact = self.last_mark == Some(mark);
+        let mut gone = Vec::new();
         let mut basic_columns = if same_positions { Vec::new() } else { self.basic_columns() };
         while self.changes.len() > mark.changes
             && let Some(change) = self.changes.pop()
         {
             match change {
                 Change::Pivot { position, entered, left } if same_positions => {
-                    self.take_out(entered);
+                    if let Basic::Column(j) = entered {
+                        self.take_out(j);
+                    }
                     self.put(position, left);
                 }
                 Change::Pivot { entered, left, .. } => {
-                    basic_columns.retain(|&j| j != entered);
+                    basic_columns.retain(|&j| entered != Basic::Column(j));
                     if let Basic::Column(j) = left {
                         basic_columns.push(j);
                     }
                 }
+                Change::Gone { row, group } => {
+                    self.present[row as usize] = true;
+                    for &(j, _) in self.g.columns_of(row) {
+                        self.missing[j as usize] -= 1;
+                    }
+                    let member = self.rows.iter().copied().find(|&other| self.factor.group(other) == group);
+                    self.join_group(row, group, member);
+                    self.rows.push(row);
+                }
+                Change::Bears(j) => self.bears[j as usize] = false,
+                Change::Doubted(j) => self.bears[j as usize] = same_positions,
                 Change::Row(row) => {
                     self.present[row as usize] = false;
                     for &(j, _) in self.g.columns_of(row) {
                         self.missing[j as usize] += 1;
+                    }
+                    self.leave_group(row);
+                    gone.push(row);
+                    if let Some(place) = self.rows.iter().rposition(|&other| other == row) {
+                        self.rows.remove(place);
                     }
                 }
             }
@@ -52,25 +72,33 @@ impl ConeSolver {
             while let Some((position, value)) = self.overwritten.pop() {
                 self.set_value(position, value);
             }
-            self.rows.truncate(mark.rows);
+            self.behind |= mark.behind;
+            if !mark.feasible {
+                self.suspects.clone_from(&self.rows);
+            }
         } else {
             if !same_positions {
                 self.rebuild(&basic_columns);
             }
-            self.rows.truncate(mark.rows);
             self.suspects.clear();
             self.recompute_values();
         }
+        gone.retain(|&row| !self.present[row as usize]); // some had been there before
+        self.forget_values(&gone);
         self.overwritten.clear();
         self.last_mark = exact.then_some(mark);
     }
 
     pub(super) fn basic_columns(&self) -> Vec<u32> {
-        let column = |&p: &u32| match self.basic[p as usize] {
+        self.rows.iter().filter_map(|&p| self.column_in(p)).collect()
+    }
+
+    /// The column that is basic in a position, if it is not the unit column.
+    pub(super) fn column_in(&self, position: u32) -> Option<u32> {
+        match self.basic[position as usize] {
             Basic::Column(j) => Some(j),
             Basic::Unit => None,
-        };
-        self.rows.iter().filter_map(column).collect()
+        }
     }
 
     /// Builds the factor again if a pivot showed lost digits. None if that fails.
@@ -93,10 +121,12 @@ impl ConeSolver {
         self.last_mark = None;
         self.factor.reset();
         self.suspects.clear();
-        for j in self.basic_columns() {
-            self.take_out(j);
+        for p in 0..self.basic.len() as u32 {
+            if let Some(j) = self.column_in(p) {
+                self.take_out(j);
+                self.put(p, Basic::Unit);
+            }
         }
-        self.rows.iter().for_each(|&p| self.basic[p as usize] = Basic::Unit);
         for &j in columns {
             self.column_spike(j);
             self.direction_from_spike();
@@ -138,5 +168,6 @@ impl ConeSolver {
             }
         }
         self.sum_rows();
+        self.behind = false;
     }
 }

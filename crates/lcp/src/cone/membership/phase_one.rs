@@ -1,5 +1,6 @@
 //! Phase one of the primal simplex method, step by step: price, direction, ratio test, pivot.
 
+use super::super::basis_factor::Replacement;
 use super::{
     Basic, Blocking, Change, ConeSolver, DISAGREEMENT, GROWTH, Membership, OUT, PIVOT, PROGRESS, RATE, SAFE_PIVOT,
     SLACK, STALL, ZERO, infeasible,
@@ -38,8 +39,7 @@ impl ConeSolver {
             let (step, leaving, rate) = match self.balanced_row() {
                 Some((row, rate)) => (0.0, row, rate),
                 None => {
-                    self.direction_from_spike();
-                    let blocking = self.ratio_test(least_index)?;
+                    let blocking = self.blocking_of(entering, least_index)?;
                     (blocking.ratio, blocking.position, blocking.rate)
                 }
             };
@@ -68,6 +68,21 @@ impl ConeSolver {
             self.spike.set(row, value);
         }
         self.factor.apply_operations(&mut self.spike);
+    }
+
+    /// The direction of a column whose spike is there, as far as it matters, and what blocks it.
+    fn blocking_of(&mut self, entering: u32, least_index: bool) -> Option<Blocking> {
+        if self.lazy {
+            self.direction_to_bearing();
+            let blocking = self.ratio_test(least_index)?;
+            if !self.is_behind(blocking.position) {
+                return Some(blocking);
+            }
+            self.catch_up();
+            self.column_spike(entering);
+        }
+        self.direction_from_spike();
+        self.ratio_test(least_index)
     }
 
     /// `B^-1 g`.
@@ -154,24 +169,34 @@ impl ConeSolver {
     /// One pivot. None if the factor refuses it.
     pub(super) fn exchange(&mut self, entering: u32, leaving: u32, step: f64, rate: f64) -> Option<()> {
         let replacement = self.factor.replace(leaving, &self.spike)?;
-        let disagreement = (replacement.rate - rate).abs() / rate.abs();
-        self.shaky |= disagreement > DISAGREEMENT || replacement.growth > GROWTH;
+        self.note_accuracy(replacement, rate);
         self.counts.pivots += 1;
         self.counts.major_cycles += 1;
         let left = self.basic[leaving as usize];
         if let Basic::Column(j) = left {
             self.take_out(j);
         }
-        self.changes.push(Change::Pivot { position: leaving, entered: entering, left });
+        self.distrust(leaving);
+        self.mixed |= self.factor.group(self.carried_row(entering)) != self.groups;
+        self.changes.push(Change::Pivot { position: leaving, entered: Basic::Column(entering), left });
         self.put(leaving, Basic::Column(entering));
         self.remember(leaving);
         self.set_value(leaving, step);
         Some(())
     }
 
+    /// The pivot as the replacement found it, and by another route: if they differ, digits are worn.
+    pub(super) fn note_accuracy(&mut self, replacement: Replacement, rate: f64) {
+        let disagreement = (replacement.rate - rate).abs() / rate.abs();
+        self.shaky |= disagreement > DISAGREEMENT || replacement.growth > GROWTH;
+    }
+
     /// A column is not basic any more.
     pub(super) fn take_out(&mut self, j: u32) {
         self.position[j as usize] = OUT;
+        if std::mem::take(&mut self.bears[j as usize]) {
+            self.changes.push(Change::Doubted(j));
+        }
         self.set_force(j, 0.0);
     }
 
