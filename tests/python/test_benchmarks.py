@@ -34,8 +34,8 @@ INFINITE = float("inf")
 PIVOTS = {
     ("col80", 0.0): {"reuse": 156, "reuse-dantzig": 156, "lcp": 6162},
     ("pyr13", 0.0): {"reuse": 180, "reuse-dantzig": 180, "lcp": 8190},
-    ("col80", 0.5): {"reuse": 157, "reuse-dantzig": 156, "lcp": 6162},
-    ("pyr13", 0.5): {"reuse": 287, "reuse-dantzig": 180, "lcp": 14142},
+    ("col80", 0.5): {"reuse": 156, "reuse-dantzig": 156, "lcp": 6162},
+    ("pyr13", 0.5): {"reuse": 180, "reuse-dantzig": 180, "lcp": 14142},
 }
 
 
