@@ -21,7 +21,7 @@ def add_in_order(scene: ds.Scene, assembly: Assembly, plan: ds.Plan) -> Workload
     if plan.status == "whole_falls":
         steps = tuple(Step((), (body,)) for body in _upward(scene, assembly)[:-1])
         return Workload("add", steps, planned=False, note="the whole assembly falls")
-    asked = _questions(scene, plan)
+    asked = _questions(scene)
     steps = []
     present: set[int] = set()
     for bodies, added in asked:
@@ -87,16 +87,21 @@ WORKLOADS: dict[str, Callable[[ds.Scene, Assembly, ds.Plan], Workload]] = {
 }
 
 
-def _questions(scene: ds.Scene, plan: ds.Plan) -> list[tuple[set[int], int]]:
-    """What the planner asked, as (bodies, body added last): the search is replayed."""
+def _questions(scene: ds.Scene, most: int = 5000) -> list[tuple[set[int], int]]:
+    """What the paper's search asks, without shortcuts, as (bodies, body added last)."""
     asked: list[tuple[set[int], int]] = []
-    verdicts = iter(plan.records)
+    structure = ds.Structure(scene)._core
+    present: set[int] = set()
 
     def listen(bodies: list[int], added: int) -> tuple[bool, int]:
-        asked.append((set(bodies), added))
-        return next(verdicts).stable, 0
+        nonlocal present
+        now = set(bodies)
+        asked.append((now, added))
+        stands, _, pivots = structure.step(sorted(present - now), sorted(now - present))
+        present = now
+        return stands, pivots
 
-    _core.plan(scene._core, listen, node_limit=len(plan.records))
+    _core.plan(scene._core, listen, node_limit=most, shortcuts=False)
     return asked
 
 

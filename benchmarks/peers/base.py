@@ -87,10 +87,13 @@ class Peer(ABC):
         The cap bounds the solver's time, and five times the cap bounds the wall time with the
         building of matrices in it.
         """
+        return self.follow(self.open(assembly, cap), workload, cap)
+
+    def follow(self, session: Session, workload: Workload, cap: float) -> Run:
+        """Take a session through the steps."""
         run = Run()
         spent = 0.0
         begin = time.perf_counter()
-        session = self.open(assembly, cap)
         for step in workload.steps:
             if spent > cap or time.perf_counter() - begin > 5 * cap:
                 run.cut_off = f"> {cap:g} s at {len(run.answers)} questions"

@@ -1,10 +1,11 @@
-"""drystone: the contact problem from scratch, and with the two kinds of reuse.
+"""drystone: the contact problem from scratch, and with two kinds of reuse.
 
-So far it answers a workload only inside its own planner, so it offers just the questions that the
-planner asks (`Workload.planned`). A session that takes arbitrary steps goes here, as `open`.
+Reuse is asked as any other peer, step by step, of a live structure. The two that answer only inside
+the planner, from scratch and the paper's reuse, are offered just the questions that the planner
+asks (`Workload.planned`).
 
-Timed: `Plan.test_seconds`, the planner's own clock. The analysis of the complete assembly is in it,
-and so are the edits of the problem at each step, which the other peers are spared.
+Timed: everything, by clocks of its own. The analysis of the complete assembly is in it, and so are
+the edits of the problem at each step, which the other peers are spared.
 """
 
 from __future__ import annotations
@@ -15,7 +16,43 @@ import drystone as ds
 from assembly import Assembly
 from drystone import _core
 from peers.base import Answer, Peer, Run, Session
-from steps import Workload
+from steps import Step, Workload
+
+
+class LiveSession:
+    """A structure that follows the steps."""
+
+    def __init__(self, scene: ds.Scene) -> None:
+        self.structure = _core.Structure(scene._core)
+
+    def answer(self, step: Step) -> Answer:
+        """The forces stay inside, unless they are asked for."""
+        return Answer(*self.structure.step(list(step.removed), list(step.added)))
+
+
+class Reuse(Peer):
+    """The forces of the last sub-assembly, on a kept basis of the generators."""
+
+    name = "drystone reuse"
+    package = "drystone"
+
+    def open(self, assembly: Assembly, cap: float) -> Session:
+        """See `run`: the scene is needed."""
+        raise NotImplementedError("a structure is made of a scene")
+
+    def run(self, scene: ds.Scene, assembly: Assembly, workload: Workload, cap: float) -> Run:
+        """Step by step; then all forces of the last sub-assembly, with their residual."""
+        session = LiveSession(scene)
+        run = self.follow(session, workload, cap)
+        run.extra_seconds = session.structure.set_up_seconds
+        run.entries = session.structure.entries()
+        verdict = session.structure.check()
+        if run.answers and run.answers[-1].stands:
+            last = run.answers[-1]
+            run.answers[-1] = Answer(
+                last.stands, last.seconds + verdict.seconds, last.iterations, verdict.residual
+            )
+        return run
 
 
 class Planner(Peer):
@@ -65,10 +102,3 @@ class ReuseDantzig(Planner):
 
     name = "drystone reuse-dantzig"
     test = "reuse-dantzig"
-
-
-class Reuse(Planner):
-    """The forces of the sub-assembly it grew from, on a kept basis of the generators."""
-
-    name = "drystone reuse"
-    test = "reuse"

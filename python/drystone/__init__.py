@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from drystone.planning import Plan, TestRecord, plan
     from drystone.scene import Body, Contact, Scene
     from drystone.statics import StaticsError
+    from drystone.structure import Structure
     from drystone.verdict import ContactForce, Verdict, check
 
 __all__ = [
@@ -31,6 +32,7 @@ __all__ = [
     "ScenePlan",
     "StartError",
     "StaticsError",
+    "Structure",
     "TestRecord",
     "Verdict",
     "__version__",
@@ -56,6 +58,7 @@ _HOMES = {
     "ScenePlan": "drystone.many",
     "StartError": "drystone._core",
     "StaticsError": "drystone.statics",
+    "Structure": "drystone.structure",
     "TestRecord": "drystone.planning",
     "Verdict": "drystone.verdict",
     "__version__": "drystone._core",

@@ -20,6 +20,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "StartError",
+    "Structure",
     "TestRecord",
     "Verdict",
     "__version__",
@@ -176,6 +177,23 @@ class Generators:
     inverse_mass: NDArray[np.float64]
     bodies: NDArray[np.int64]
     contact: NDArray[np.int64]
+
+@final
+class Structure:
+    """Blocks are indices in `names()`: the movable bodies, in the order of the scene."""
+
+    set_up_seconds: float
+    """Of the analysis of the complete assembly, once its contacts are known."""
+    def __new__(cls, scene: Scene) -> Structure: ...
+    def names(self) -> list[str]: ...
+    def blocks(self) -> list[int]: ...
+    def change(self, removed: list[int], added: list[int]) -> None: ...
+    def step(self, removed: list[int], added: list[int]) -> tuple[bool, float, int]:
+        """Whether the rest stands, seconds of all this, pivots."""
+
+    def check(self) -> Verdict: ...
+    def pivots(self) -> int: ...
+    def entries(self) -> int: ...
 
 @final
 class LcpSolution:

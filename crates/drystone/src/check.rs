@@ -111,7 +111,7 @@ pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
 }
 
 /// Solves the complementarity problem from scratch; `spent` is work done before.
-fn solve_complementarity(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
+pub(crate) fn solve_complementarity(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
     let mut solver = Solver::new(assembly.problem(), Settings::default())
         .expect("A = G' M^-1 G is symmetric with a positive diagonal");
     solver.add_rows(&assembly.rows(blocks)).expect("rows of this assembly's problem");
@@ -122,7 +122,7 @@ fn solve_complementarity(assembly: &Assembly, blocks: &BlockSet, spent: Counts) 
 }
 
 /// Reads a verdict from the magnitudes of the generators.
-fn verdict(
+pub(crate) fn verdict(
     assembly: &Assembly,
     blocks: &BlockSet,
     f: impl Fn(usize) -> f64,

@@ -11,7 +11,7 @@
 //! - [`geometry`]: convex polygons, their poses, areas and moments.
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
 //! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
-//! - [`mod@check`]: does it stand? - [`mod@plan`]: in which order does it come apart without falling?
+//! - [`mod@check`]: does it stand? - [`structure`]: and now, with this block more or less? - [`mod@plan`]: in which order does it come apart without falling?
 //!
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
 
@@ -24,9 +24,11 @@ pub mod io;
 pub mod plan;
 pub mod scene;
 pub mod scenes;
+pub mod structure;
 mod suggest;
 
 pub use check::{Verdict, check};
 pub use contact::{Contact, ContactId, ContactSet, Feature, find_contacts};
 pub use error::{FileError, SceneError};
 pub use scene::{Body, BodyOptions, Scene};
+pub use structure::Structure;

@@ -63,6 +63,11 @@ pub fn lcp_error(error: &LcpError) -> PyErr {
     }
 }
 
+/// A solver ended without an answer on a structure of so many blocks.
+pub fn no_answer(blocks: usize) -> PyErr {
+    raise(|known| &known.base, format!("the equilibrium solver gave no answer on a structure of {blocks} blocks"))
+}
+
 pub fn plan_error(error: PlanError) -> PyErr {
     match error {
         PlanError::Scene(error) => scene_error(&error),

@@ -6,6 +6,7 @@ mod lcp;
 mod lcp_solver;
 mod plan;
 mod scene;
+mod structure;
 mod verdict;
 
 use pyo3::prelude::*;
@@ -22,6 +23,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<plan::TestRecord>()?;
     module.add_class::<plan::Plan>()?;
     module.add_class::<plan::Generators>()?;
+    module.add_class::<structure::Structure>()?;
     module.add_class::<lcp::LcpSolution>()?;
     module.add_class::<lcp_solver::LcpSolver>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;

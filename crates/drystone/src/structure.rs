@@ -1,0 +1,111 @@
+//! A structure that is put up and taken down block by block, in any order; each question about it is answered from the
+//! last one.
+
+use crate::{
+    check::{self, Verdict},
+    error::SceneError,
+    formulate::{Assembly, BlockSet},
+    scene::Scene,
+};
+use drystone_lcp::{
+    Counts, Status,
+    cone::{ConeSolver, Membership},
+};
+
+/// The blocks of a scene that are there at the moment; fixed bodies always are.
+///
+/// Kept between questions: the contacts of the complete scene, the basis of the generators that hold the structure up,
+/// and its factor. A verdict costs what the change reaches; see [`ConeSolver::decide`].
+///
+/// ```
+/// use drystone::{Structure, scenes};
+///
+/// let mut structure = Structure::new(&scenes::column(4, 0.0)?)?; // a fixed block and three that move
+/// structure.add(0);
+/// structure.add(1);
+/// assert_eq!(structure.stands(), Some(true));
+/// structure.remove(0);
+/// assert_eq!(structure.stands(), Some(false));
+/// # Ok::<(), drystone::SceneError>(())
+/// ```
+#[derive(Debug)]
+pub struct Structure {
+    assembly: Assembly,
+    blocks: BlockSet,
+    solver: ConeSolver,
+}
+
+impl Structure {
+    /// Takes the contacts of the complete scene; no block that moves is there yet.
+    ///
+    /// # Errors
+    /// [`SceneError::Overlap`].
+    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+        Assembly::new(scene).map(Self::of)
+    }
+
+    /// The same of an assembly whose contacts are known.
+    pub fn of(assembly: Assembly) -> Self {
+        let (blocks, solver) = (BlockSet::empty(assembly.blocks()), assembly.equilibrium());
+        Self { assembly, blocks, solver }
+    }
+
+    /// The complete assembly.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    /// The movable blocks that are there.
+    pub fn blocks(&self) -> &BlockSet {
+        &self.blocks
+    }
+
+    /// Puts a movable block up where the scene has it; it may be there already.
+    ///
+    /// # Panics
+    /// If there is no such block.
+    pub fn add(&mut self, block: usize) {
+        self.blocks.insert(block);
+        self.solver.add_rows(&Assembly::equilibrium_rows(block));
+    }
+
+    /// Takes a movable block away; it need not be there.
+    ///
+    /// # Panics
+    /// If there is no such block.
+    pub fn remove(&mut self, block: usize) {
+        self.blocks.remove(block);
+        self.solver.remove_rows(&Assembly::equilibrium_rows(block));
+    }
+
+    /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.
+    pub fn stands(&mut self) -> Option<bool> {
+        match self.solver.decide() {
+            Membership::Inside => Some(true),
+            Membership::Outside => Some(false),
+            _ => None,
+        }
+    }
+
+    /// The verdict with all forces, or with the accelerations if it falls.
+    pub fn check(&mut self) -> Verdict {
+        let before = self.solver.counts();
+        let found = self.solver.solve();
+        let spent = self.solver.counts() - before;
+        if found != Membership::Inside {
+            return check::solve_complementarity(&self.assembly, &self.blocks, spent);
+        }
+        let force = |generator| self.assembly.magnitude(&self.solver, generator);
+        check::verdict(&self.assembly, &self.blocks, force, Status::Solved, spent, self.solver.residual())
+    }
+
+    /// Work done so far.
+    pub fn counts(&self) -> Counts {
+        self.solver.counts()
+    }
+
+    /// Numbers stored in the factor.
+    pub fn entries(&self) -> usize {
+        self.solver.entries()
+    }
+}

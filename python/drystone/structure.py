@@ -1,0 +1,87 @@
+"""A structure that is put up and taken down block by block: does it stand now?"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable
+
+from drystone import _core
+from drystone.scene import Scene
+from drystone.verdict import Verdict
+
+
+class Structure:
+    """The blocks of a scene that are there at the moment; fixed bodies always are.
+
+    Blocks come and go in any order, and every question is answered from the one before: the
+    contacts of the complete scene, the forces and their factor are kept. A verdict costs what the
+    change reaches, which on a tall stack is a block or two, not the way to the ground.
+
+    >>> import drystone as ds
+    >>> structure = ds.Structure(ds.scenes.pyramid(3), blocks=["1", "2", "3"])  # the lowest row
+    >>> structure.add("4", "5")
+    >>> structure.stands()
+    True
+    >>> structure.remove("1", "2")
+    >>> structure.stands(), structure.check().falling
+    (False, ('4',))
+
+    Raises SceneError for a scene in which blocks overlap, and for a name that no movable body has.
+    One thread at a time may use a structure.
+    """
+
+    __slots__ = ("_core", "_index", "_names", "_scene")
+
+    def __init__(self, scene: Scene, blocks: Iterable[str] = ()) -> None:
+        self._scene = copy.copy(scene)
+        self._core = _core.Structure(scene._core)
+        self._names = tuple(self._core.names())
+        self._index = {name: block for block, name in enumerate(self._names)}
+        self.add(*blocks)
+
+    def __repr__(self) -> str:
+        return f"<Structure: {len(self.blocks)} of {len(self._names)} blocks>"
+
+    @property
+    def blocks(self) -> tuple[str, ...]:
+        """Names of the movable bodies that are there, in the order of the scene."""
+        return tuple(self._names[block] for block in self._core.blocks())
+
+    def add(self, *blocks: str) -> None:
+        """Put blocks up where the scene has them; those that are there already stay."""
+        self._core.change([], self._indices(blocks))
+
+    def remove(self, *blocks: str) -> None:
+        """Take blocks away; those that are not there stay away."""
+        self._core.change(self._indices(blocks), [])
+
+    def stands(self) -> bool:
+        """Whether an equilibrium within the friction cones exists.
+
+        Raises DrystoneError if the solver ends without an answer.
+        """
+        return self._core.step([], [])[0]
+
+    def check(self) -> Verdict:
+        """The verdict with all contact forces, or how it begins to fall; as `check` gives it."""
+        return Verdict._of(self._core.check(), self._scene)
+
+    @property
+    def pivots(self) -> int:
+        """Pivots made so far, for all answers together."""
+        return self._core.pivots()
+
+    @property
+    def entries(self) -> int:
+        """Numbers that the factor holds now."""
+        return self._core.entries()
+
+    def _indices(self, blocks: Iterable[str]) -> list[int]:
+        return [self._block(name) for name in blocks]
+
+    def _block(self, name: str) -> int:
+        block = self._index.get(name)
+        if block is None:
+            body = self._scene.body(name)  # raises if there is none
+            raise _core.SceneError(f"body {body.name!r} is fixed: it is always there")
+        return block
