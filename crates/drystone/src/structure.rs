@@ -33,6 +33,10 @@ pub struct Structure {
     assembly: Assembly,
     blocks: BlockSet,
     solver: ConeSolver,
+    /// Place of each block in the order from the supports upward.
+    height: Vec<usize>,
+    /// Blocks put up since the last question.
+    new: Vec<usize>,
 }
 
 impl Structure {
@@ -46,8 +50,10 @@ impl Structure {
 
     /// The same of an assembly whose contacts are known.
     pub fn of(assembly: Assembly) -> Self {
+        let mut height = vec![0; assembly.blocks()];
+        assembly.upward().into_iter().enumerate().for_each(|(place, block)| height[block] = place);
         let (blocks, solver) = (BlockSet::empty(assembly.blocks()), assembly.equilibrium());
-        Self { assembly, blocks, solver }
+        Self { assembly, blocks, solver, height, new: Vec::new() }
     }
 
     /// The complete assembly.
@@ -65,8 +71,10 @@ impl Structure {
     /// # Panics
     /// If there is no such block.
     pub fn add(&mut self, block: usize) {
-        self.blocks.insert(block);
-        self.solver.add_rows(&Assembly::equilibrium_rows(block));
+        if !self.blocks.contains(block) {
+            self.blocks.insert(block);
+            self.new.push(block);
+        }
     }
 
     /// Takes a movable block away; it need not be there.
@@ -75,11 +83,28 @@ impl Structure {
     /// If there is no such block.
     pub fn remove(&mut self, block: usize) {
         self.blocks.remove(block);
-        self.solver.remove_rows(&Assembly::equilibrium_rows(block));
+        match self.new.iter().position(|&new| new == block) {
+            Some(place) => drop(self.new.remove(place)),
+            None => self.solver.remove_rows(&Assembly::equilibrium_rows(block)),
+        }
+    }
+
+    /// Puts the new blocks into the solver one by one from the supports upward, which takes fewer pivots than all at
+    /// once.
+    fn put_up(&mut self) {
+        let mut new = std::mem::take(&mut self.new);
+        new.sort_unstable_by_key(|&block| self.height[block]);
+        for (k, block) in new.into_iter().enumerate() {
+            if k > 0 {
+                self.solver.decide();
+            }
+            self.solver.add_rows(&Assembly::equilibrium_rows(block));
+        }
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.
     pub fn stands(&mut self) -> Option<bool> {
+        self.put_up();
         match self.solver.decide() {
             Membership::Inside => Some(true),
             Membership::Outside => Some(false),
@@ -90,6 +115,7 @@ impl Structure {
     /// The verdict with all forces, or with the accelerations if it falls.
     pub fn check(&mut self) -> Verdict {
         let before = self.solver.counts();
+        self.put_up();
         let found = self.solver.solve();
         let spent = self.solver.counts() - before;
         if found != Membership::Inside {
