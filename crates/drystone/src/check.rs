@@ -5,6 +5,7 @@ use crate::{
     error::SceneError,
     formulate::{Assembly, BlockSet, ContactForce},
     scene::Scene,
+    structure::put_up,
 };
 use drystone_lcp::{
     Counts, Settings, Solver, Status,
@@ -93,10 +94,7 @@ pub fn stands(scene: &Scene) -> Result<bool, SceneError> {
 /// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports.
 fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
     let mut equilibrium = assembly.equilibrium();
-    for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {
-        equilibrium.add_rows(&Assembly::equilibrium_rows(block));
-        equilibrium.decide();
-    }
+    put_up(&mut equilibrium, assembly.upward().into_iter().filter(|&block| blocks.contains(block)));
     (equilibrium.solve(), equilibrium)
 }
 

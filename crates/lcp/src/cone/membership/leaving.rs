@@ -23,8 +23,10 @@ impl ConeSolver {
         if positions.into_iter().all(|position| self.put_unit(position, &mut felt).is_some()) {
             self.pass_on(&felt);
         } else {
-            let mut remaining = self.basic_columns();
-            remaining.retain(|&j| self.missing[j as usize] == 0);
+            let mut remaining = self.basis_set();
+            remaining.columns.retain(|&j| self.missing[j as usize] == 0);
+            remaining.units.fill(false); // whichever rows the columns leave over
+            rows.iter().for_each(|&row| remaining.units[row as usize] = true);
             self.rebuild(&remaining);
             self.recompute_values();
         }
