@@ -135,7 +135,7 @@ def solve(
 
     - "dantzig": principal pivoting, for symmetric positive semidefinite M, singular or not.
       With a `start` of k indices it takes at most n - k major cycles.
-    - "lemke": Lemke's method, also for M that is not symmetric; takes no `start`.
+    - "lemke": Lemke's method, also for M that is not symmetric. A `start` is the basis it begins at.
 
     Raises LcpError for entries that are not finite, shapes that do not match, or an M that the
     method cannot take; StartError for a start that is not a solution of its sub-problem. A problem

@@ -22,7 +22,7 @@ use crate::{
     matrix::SparseColumns,
     problem::Problem,
     ratio::Candidate,
-    reuse::{Start, StartError},
+    reuse::Start,
     scaling::Scaling,
     settings::Settings,
     solution::{Solution, Status},
@@ -128,8 +128,6 @@ enum Checked {
     LostAccuracy,
 }
 
-/// A pair with both sides above this, in the problem's own scale, is not complementary (validity of a start).
-const START_TOLERANCE: f64 = 1e-9;
 /// Zero-length steps in one major cycle, as a multiple of the active rows, after which ties go by least index.
 const STALL: usize = 2;
 /// Active `w` at or below this, in the problem's own scale, are rounding: correcting for them would only add noise
@@ -317,7 +315,7 @@ impl Solver {
         }
         self.measure_q();
         self.recompute_w();
-        if let Err(error) = self.require_complementary(start) {
+        if let Err(error) = start.require_complementary(&self.z, &self.w, &self.scaling.d, self.q_size) {
             self.clear();
             return Err(error.into());
         }
@@ -327,21 +325,6 @@ impl Solver {
             }
         }
         self.recompute_w();
-        Ok(())
-    }
-
-    fn require_complementary(&self, start: &Start) -> Result<(), StartError> {
-        let tolerance = START_TOLERANCE * largest(&self.z, &start.indices).max(self.q_size);
-        for &index in &start.indices {
-            let (z, w) = (self.z[index], self.w[index]);
-            let unscaled = w / self.scaling.d[index];
-            if w < -tolerance {
-                return Err(StartError::Violated { index, w: unscaled });
-            }
-            if z > tolerance && w > tolerance {
-                return Err(StartError::NotComplementary { index, z: self.z(index), w: unscaled });
-            }
-        }
         Ok(())
     }
 

@@ -4,10 +4,7 @@ use crate::{
     problems::{gram, problem, random, rows, vector},
     verify::{assert_certificate, assert_solves},
 };
-use drystone_lcp::{
-    Dantzig, LcpError, Lemke, Method, Problem, Settings, Solver, SparseColumns, Start, StartError, Status,
-    cone::Columns,
-};
+use drystone_lcp::{Dantzig, LcpError, Lemke, Method, Problem, Settings, Solver, SparseColumns, Status, cone::Columns};
 use rand::Rng;
 
 fn dantzig(m: &[f64], q: Vec<f64>) -> Result<Status, LcpError> {
@@ -141,13 +138,6 @@ fn indefinite_matrices_never_give_a_wrong_answer() {
         }
     }
     assert!(refused > 100 && answered > 100, "both must occur: {refused} refused, {answered} answered");
-}
-
-#[test]
-fn lemke_refuses_every_start() {
-    let start = Start { indices: vec![0], z: vec![1.0] };
-    let outcome = Lemke.solve(&problem(&[1.0], vec![-1.0]), Some(&start), &Settings::default());
-    assert_eq!(outcome, Err(LcpError::Start(StartError::Unsupported { method: "lemke" })));
 }
 
 #[test]

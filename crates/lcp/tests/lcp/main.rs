@@ -4,6 +4,7 @@ mod bad_input;
 mod brute_force;
 mod contact;
 mod cycling;
+mod lemke_reuse;
 mod masked;
 mod problems;
 mod random;

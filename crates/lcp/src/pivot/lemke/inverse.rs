@@ -1,5 +1,6 @@
 //! The explicit inverse of a basis, which the lexicographic rule reads row by row.
 
+use super::system::{Column, System, Variable};
 use faer::{
     Mat,
     linalg::solvers::{DenseSolveCore, Solve},
@@ -27,10 +28,9 @@ impl BasisInverse {
         &self.rows[r * self.n..(r + 1) * self.n]
     }
 
-    /// `B^-1 a` for a sparse `a`.
-    pub fn apply(&self, (indices, values): (&[usize], &[f64])) -> Vec<f64> {
-        let dot = |row: &[f64]| indices.iter().zip(values).map(|(&i, value)| row[i] * value).sum();
-        (0..self.n).map(|r| dot(self.row(r))).collect()
+    /// `B^-1 a`.
+    pub fn apply(&self, a: &Column) -> Vec<f64> {
+        (0..self.n).map(|r| a.dot(self.row(r))).collect()
     }
 
     /// The column at place `r` of B is replaced by `a`, with `direction = B^-1 a`.
@@ -49,22 +49,107 @@ impl BasisInverse {
         self.age += 1;
     }
 
-    /// Computes the inverse from B itself by LU with partial pivoting, and `B^-1 q` with one step of iterative
-    /// refinement. `None` if B is numerically singular.
-    pub fn rebuild(&mut self, b: &Mat<f64>, q: &[f64]) -> Option<Vec<f64>> {
-        let lu = b.partial_piv_lu();
+    /// Computes the inverse from B itself, and `B^-1 q` with one step of iterative refinement. `None` if B is numerically
+    /// singular.
+    ///
+    /// A basic `w_i` is a unit column, so only the block of the other basic variables on the rows without one is
+    /// factored, by LU with partial pivoting: `x_K = B_RK^-1 a_R`, `x_i = a_i - B_iK x_K`.
+    pub fn rebuild(&mut self, system: &System, basic: &[Variable]) -> Option<Vec<f64>> {
+        let shape = Shape::of(basic);
+        let columns: Vec<Column> = shape.places.iter().map(|&place| system.column(basic[place])).collect();
+        let lu = shape.block(&columns).partial_piv_lu();
+        let solve = |a: &[f64]| {
+            let right = Mat::from_fn(shape.rows.len(), 1, |r, _| a[shape.rows[r]]);
+            let found = lu.solve(&right);
+            shape.complete(&columns, a, |k| found[(k, 0)])
+        };
+        let mut x = solve(system.q);
+        let correction = solve(&system.difference(basic, &x, system.q));
+        x.iter_mut().zip(correction).for_each(|(x, correction)| *x += correction);
+
         let inverse = lu.inverse();
-        for (r, row) in self.rows.chunks_exact_mut(self.n).enumerate() {
-            for (j, value) in row.iter_mut().enumerate() {
-                *value = inverse[(r, j)];
+        self.rows.fill(0.0);
+        self.age = 0;
+        for (k, &place) in shape.places.iter().enumerate() {
+            for (r, &row) in shape.rows.iter().enumerate() {
+                self.rows[place * self.n + row] = inverse[(k, r)];
             }
         }
-        self.age = 0;
-        let right = Mat::from_fn(self.n, 1, |i, _| q[i]);
-        let mut x = lu.solve(&right);
-        let correction = lu.solve(&right - b * &x);
-        x += correction;
-        let x: Vec<f64> = (0..self.n).map(|i| x[(i, 0)]).collect();
+        for &(place, i) in &shape.units {
+            self.rows[place * self.n + i] = 1.0;
+        }
+        self.fill_unit_rows(&shape, &columns);
         (self.rows.iter().chain(&x).all(|value| value.is_finite())).then_some(x)
+    }
+
+    /// Rows of basic `w_i`: `e_i - B_iK` times the rows of the others.
+    fn fill_unit_rows(&mut self, shape: &Shape, columns: &[Column]) {
+        for (&place, column) in shape.places.iter().zip(columns) {
+            let source = self.row(place).to_vec();
+            for (&i, &value) in column.indices.iter().zip(&column.values) {
+                let Some(target) = shape.unit_at[i] else { continue };
+                let row = &mut self.rows[target * self.n..(target + 1) * self.n];
+                shape.rows.iter().for_each(|&r| row[r] -= value * source[r]);
+            }
+        }
+    }
+
+    /// Largest entry.
+    pub fn largest(&self) -> f64 {
+        self.rows.iter().fold(0.0, |size, value| size.max(value.abs()))
+    }
+}
+
+/// Which columns of a basis are unit columns.
+struct Shape {
+    /// (place, i) of every basic `w_i`.
+    units: Vec<(usize, usize)>,
+    /// The place of `w_i`, where it is basic (n).
+    unit_at: Vec<Option<usize>>,
+    /// Places of all other basic variables, K.
+    places: Vec<usize>,
+    /// Rows whose `w` is not basic, R; as many.
+    rows: Vec<usize>,
+}
+
+impl Shape {
+    fn of(basic: &[Variable]) -> Self {
+        let mut unit_at = vec![None; basic.len()];
+        let (mut units, mut places) = (Vec::new(), Vec::new());
+        for (place, &variable) in basic.iter().enumerate() {
+            if let Variable::W(i) = variable {
+                unit_at[i] = Some(place);
+                units.push((place, i));
+            } else {
+                places.push(place);
+            }
+        }
+        let rows = (0..basic.len()).filter(|&i| unit_at[i].is_none()).collect();
+        Self { units, unit_at, places, rows }
+    }
+
+    /// `B_RK`.
+    fn block(&self, columns: &[Column]) -> Mat<f64> {
+        let mut at = vec![None; self.unit_at.len()];
+        self.rows.iter().enumerate().for_each(|(r, &row)| at[row] = Some(r));
+        let mut block = Mat::zeros(self.rows.len(), columns.len());
+        for (k, column) in columns.iter().enumerate() {
+            for (&i, &value) in column.indices.iter().zip(&column.values) {
+                if let Some(r) = at[i] {
+                    block[(r, k)] = value;
+                }
+            }
+        }
+        block
+    }
+
+    /// All of x from `x_K`.
+    fn complete(&self, columns: &[Column], a: &[f64], x_k: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut rest = a.to_vec();
+        columns.iter().enumerate().for_each(|(k, column)| column.add_to(&mut rest, -x_k(k)));
+        let mut x = vec![0.0; a.len()];
+        self.places.iter().enumerate().for_each(|(k, &place)| x[place] = x_k(k));
+        self.units.iter().for_each(|&(place, i)| x[place] = rest[i]);
+        x
     }
 }
