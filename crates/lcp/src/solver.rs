@@ -9,6 +9,7 @@
 //! Cottle and Dantzig (1968); Baraff, Fast contact force computation for nonpenetrating rigid bodies (1994);
 //! Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006).
 
+mod blocks;
 mod drive;
 mod settle;
 mod snapshot;
@@ -333,17 +334,24 @@ impl Solver {
     /// # Errors
     /// [`LcpError::NotSemidefinite`] if a direction of negative curvature shows up.
     pub fn solve(&mut self) -> Result<Status, LcpError> {
+        self.answer(Self::solve_present)
+    }
+
+    /// Keeps the accounts of one solve; `method` is given the number of pivots at which it has to stop.
+    fn answer(
+        &mut self,
+        method: impl FnOnce(&mut Self, usize) -> Result<Status, LcpError>,
+    ) -> Result<Status, LcpError> {
         self.counts_at_solve = self.counts;
         self.ray = None;
-        let answer = self.solve_present();
+        let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
+        let answer = method(self, self.counts.pivots + self.settings.pivot_limit_for(present));
         // Without an answer the row driven last has both z > 0 and w < 0.
         self.settled = answer == Ok(Status::Solved);
         answer
     }
 
-    fn solve_present(&mut self) -> Result<Status, LcpError> {
-        let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
-        let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
+    fn solve_present(&mut self, limit: usize) -> Result<Status, LcpError> {
         let mut rounds = 0;
         let mut repairs = [Self::refactor, Self::restart].into_iter();
         loop {

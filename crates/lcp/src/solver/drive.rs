@@ -82,7 +82,25 @@ impl Solver {
 
     /// The direction in which only `z_i` and the active `z` move and the active `w` stay zero:
     /// `dz_i = 1`, `dz_C = -M_CC^-1 M_Ci`, `dw = M dz`.
-    fn direction(&mut self, i: usize) {
+    pub(super) fn direction(&mut self, i: usize) {
+        self.solve_direction(i);
+        self.multiply_direction(i);
+        let size = largest(&self.dz, self.active.members()).max(1.0);
+        if largest(&self.dw, self.active.members()) > REFINE * size {
+            let mut correction = vec![0.0; self.dz.len()];
+            for &j in self.active.members() {
+                correction[j] = -self.dw[j];
+            }
+            self.counts.entries_solved += self.factor.solve(&mut correction);
+            for &j in self.active.members() {
+                self.dz[j] += correction[j];
+            }
+            self.multiply_direction(i);
+        }
+    }
+
+    /// `dz` of [`Self::direction`], as accurate as the factor.
+    pub(super) fn solve_direction(&mut self, i: usize) {
         for &j in &self.moving {
             self.dz[j] = 0.0;
         }
@@ -97,19 +115,6 @@ impl Solver {
         }
         self.counts.entries_solved += self.factor.solve(&mut self.dz);
         self.dz[i] = 1.0;
-        self.multiply_direction(i);
-        let size = largest(&self.dz, self.active.members()).max(1.0);
-        if largest(&self.dw, self.active.members()) > REFINE * size {
-            let mut correction = vec![0.0; self.dz.len()];
-            for &j in self.active.members() {
-                correction[j] = -self.dw[j];
-            }
-            self.counts.entries_solved += self.factor.solve(&mut correction);
-            for &j in self.active.members() {
-                self.dz[j] += correction[j];
-            }
-            self.multiply_direction(i);
-        }
     }
 
     /// `dw = M dz`, and the rows that it reaches.
@@ -139,13 +144,13 @@ impl Solver {
 
     /// `dz' M dz`, which equals `dw_i` but for the error of the active `dw`: that enters `dw_i` multiplied by the direction's
     /// size and here by nothing.
-    fn curvature(&self, i: usize) -> f64 {
+    pub(super) fn curvature(&self, i: usize) -> f64 {
         self.dw[i] + self.active.members().iter().map(|&j| self.dz[j] * self.dw[j]).sum::<f64>()
     }
 
     /// Curvature at or below which row i depends on the active rows. Rounding in `M` alone, one unit in the last place of
     /// a unit diagonal, changes `dz' M dz` by the square of the direction's size.
-    fn least_slope(&self, size: f64) -> f64 {
+    pub(super) fn least_slope(&self, size: f64) -> f64 {
         (self.settings.singular * size).max(CURVATURE_ROUNDING * size * size)
     }
 
@@ -203,7 +208,7 @@ impl Solver {
         }
     }
 
-    fn insert_or_refactor(&mut self, j: usize) -> bool {
+    pub(super) fn insert_or_refactor(&mut self, j: usize) -> bool {
         if self.enter(j) {
             return true;
         }

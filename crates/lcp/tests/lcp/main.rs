@@ -1,6 +1,7 @@
 //! Tests of the solver crate by topic, in one binary. Answers are checked from `M` and `q` alone (`verify`).
 
 mod bad_input;
+mod block;
 mod brute_force;
 mod contact;
 mod cycling;

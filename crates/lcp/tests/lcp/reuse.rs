@@ -7,13 +7,10 @@ use crate::{
     problems::{
         badly_scaled, feasible_q, gram, integer_rows, integer_vector, problem, random, repeat_columns, rows, vector,
     },
-    verify::{SAME_W, assert_answer, assert_same_w, assert_solves},
+    verify::{OTHERS, SAME_W, assert_answer, assert_same_w, assert_solves},
 };
-use drystone_lcp::{Dantzig, LcpError, Lemke, Method, Problem, Settings, Solver, Start, StartError, Status};
+use drystone_lcp::{Dantzig, LcpError, Method, Problem, Settings, Solver, Start, StartError, Status};
 use rand::{Rng, seq::SliceRandom};
-
-/// The methods that are compared with Dantzig's.
-const OTHERS: [&dyn Method; 1] = [&Lemke];
 
 fn solve(problem: &Problem, start: Option<&Start>) -> Result<drystone_lcp::Solution, LcpError> {
     Dantzig.solve(problem, start, &Settings::default())
