@@ -101,6 +101,8 @@ impl Outcome<'_> {
         match end {
             // A ray met where z0 is zero already is a solution found too late.
             End::Ray(_) if reached.residual <= self.settings.residual => Solution { status: Status::Solved, ..reached },
+            // Without a z part it is the ray on which the path began. Only a tie misjudged by rounding leads back there.
+            End::Ray(ray) if ray.iter().all(|&y| y == 0.0) => reached,
             End::Ray(ray) => {
                 let ray = self.unscale(&ray, 1.0);
                 let status = if self.certifies(&ray) { Status::NoSolution } else { Status::RayTermination };
