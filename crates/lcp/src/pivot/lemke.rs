@@ -64,7 +64,7 @@ impl Method for Lemke {
         };
         if let Some(start) = start {
             let known = Known::new(problem, start, settings)?;
-            let from = |active: Vec<usize>| Path::from_basis(&m, &q, settings, &active);
+            let from = |active: Vec<usize>| Path::from_basis(&m, &q, settings, &active, known.order());
             let path = from(known.positive()).or_else(|| from(known.completed(&m)?)).or_else(|| from(known.reduced()?));
             let solution = attempt(path.ok_or(StartError::Dependent)?);
             if !matches!(solution.status, Status::RayTermination | Status::NumericalTrouble) {

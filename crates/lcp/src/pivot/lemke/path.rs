@@ -27,6 +27,8 @@ pub(super) struct Path<'a> {
     settings: &'a Settings,
     /// The basis B0 that the path starts from, which the lexicographic rule compares rows in; `None` for `w`.
     start: Option<Vec<Variable>>,
+    /// The order in which the rule compares the entries of two rows (n).
+    order: Vec<usize>,
     /// `B0^-1 c`: how fast each basic variable of the start grows with `z0` (n), not negative.
     lift: Vec<f64>,
     /// The variable that every row of the inverse belongs to (n).
@@ -55,6 +57,7 @@ impl<'a> Path<'a> {
         Self {
             settings,
             start: None,
+            order: (0..n).collect(),
             lift: cover.clone(),
             system: System { m, q, cover },
             basic: (0..n).map(Variable::W).collect(),
@@ -66,10 +69,17 @@ impl<'a> Path<'a> {
     }
 
     /// The path from the complementary basis with `z` basic on `active`. The covering vector is the one that lifts the
-    /// infeasible basic variables, all alike, and no other: `c = B0 lift`. `None` if the basis is numerically singular.
-    pub fn from_basis(m: &'a SparseColumns, q: &'a [f64], settings: &'a Settings, active: &[usize]) -> Option<Self> {
+    /// infeasible basic variables, all alike, and no other: `c = B0 lift`. `order` is that of the lexicographic rule.
+    /// `None` if the basis is numerically singular.
+    pub fn from_basis(
+        m: &'a SparseColumns,
+        q: &'a [f64],
+        settings: &'a Settings,
+        active: &[usize],
+        order: Vec<usize>,
+    ) -> Option<Self> {
         let n = q.len();
-        let mut path = Self::new(m, q, settings, vec![0.0; n]);
+        let mut path = Self { order, ..Self::new(m, q, settings, vec![0.0; n]) };
         active.iter().for_each(|&j| path.basic[j] = Variable::Z(j));
         path.x = path.inverse.rebuild(&path.system, &path.basic)?;
         if path.inverse.largest() * settings.singular > 1.0 {
@@ -129,10 +139,13 @@ impl<'a> Path<'a> {
         active
     }
 
-    /// The rows `[x_B, B^-1 B0]` that the rule compares.
+    /// The rows `[x_B, B^-1 B0]` as the rule compares them.
     #[cfg(test)]
     pub fn lexicographic_rows(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.x.iter().enumerate().map(|(r, &x)| [&[x], &*self.lexicographic_row(r)].concat())
+        self.x.iter().enumerate().map(|(r, &x)| {
+            let row = self.lexicographic_row(r);
+            std::iter::once(x).chain(self.order.iter().map(|&column| row[column])).collect()
+        })
     }
 
     /// Row r of `B^-1 B0`. In terms of B0 the path is that of the problem in which its variables are the `w`.
@@ -144,11 +157,11 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The row in which `z0` enters: the least `x_i / lift_i`; `None` if it is not negative. Among equals the last,
-    /// because `[x_i e_i] / lift_i` is lexicographically least there, which leaves every other row lexicographically
-    /// positive.
+    /// The row in which `z0` enters: the least `x_i / lift_i`; `None` if it is not negative. Among equals the last in the
+    /// order of the rule, because `[x_i e_i] / lift_i` is lexicographically least there, which leaves every other row
+    /// lexicographically positive.
     fn most_infeasible(&self) -> Option<usize> {
-        let infeasible = || (0..self.x.len()).filter(|&i| self.lift[i] > 0.0 && self.x[i] < 0.0);
+        let infeasible = || self.order.iter().copied().filter(|&i| self.lift[i] > 0.0 && self.x[i] < 0.0);
         let ratio = |i: usize| self.x[i] / self.lift[i];
         let least = infeasible().map(ratio).reduce(f64::min)?;
         infeasible().rfind(|&i| ratio(i) <= least + self.zero())
@@ -205,7 +218,7 @@ impl<'a> Path<'a> {
         }
         let mut rows: Vec<(usize, Cow<'_, [f64]>)> = tied.into_iter().map(|r| (r, self.lexicographic_row(r))).collect();
         let size = rows.iter().map(|(r, row)| largest(row) / direction[*r]).fold(0.0, f64::max);
-        for column in 0..self.system.len() {
+        for &column in &self.order {
             let entry = |(r, row): &(usize, Cow<'_, [f64]>)| row[column] / direction[*r];
             let least = rows.iter().map(entry).fold(f64::INFINITY, f64::min);
             rows.retain(|row| entry(row) <= least + LEXICOGRAPHIC_TIE * size);

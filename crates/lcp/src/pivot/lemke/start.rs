@@ -62,6 +62,17 @@ impl<'a> Known<'a> {
         Some((0..self.problem.len()).filter(|&i| solver.z(i) > 0.0).collect())
     }
 
+    /// The order of the lexicographic rule: which rows are perturbed most. Any order will do; with the known rows before
+    /// the new ones, and the last before the first in both, degenerate contact problems take the fewest pivots
+    /// (`docs/theory/lemke.md`).
+    pub fn order(&self) -> Vec<usize> {
+        let mut new = vec![true; self.z.len()];
+        self.start.indices.iter().for_each(|&i| new[i] = false);
+        let mut order: Vec<usize> = (0..self.z.len()).rev().collect();
+        order.sort_by_key(|&i| new[i]);
+        order
+    }
+
     fn rows(&self, keep: impl Fn(usize) -> bool) -> Vec<usize> {
         let mut rows: Vec<usize> = self.start.indices.iter().copied().filter(|&i| keep(i)).collect();
         rows.sort_unstable();

@@ -20,7 +20,9 @@ fn every_row_stays_lexicographically_positive() {
         let fresh = || Some(Path::new(&m, &q, &settings, vec![1.0; n]));
         degenerate += degenerate_rows(fresh, &format!("case {case}"));
         let active: Vec<usize> = (0..n).filter(|_| rng.random_bool(0.5)).collect();
-        let from_basis = || Path::from_basis(&m, &q, &settings, &active);
+        let mut order: Vec<usize> = (0..n).collect();
+        order.rotate_left(case % n);
+        let from_basis = || Path::from_basis(&m, &q, &settings, &active, order.clone());
         degenerate_from_basis += degenerate_rows(from_basis, &format!("case {case}, from {active:?}"));
     }
     assert!(degenerate > 100, "the problems must be degenerate: only {degenerate} rows");
