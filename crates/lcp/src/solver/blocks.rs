@@ -1,8 +1,8 @@
 //! Block principal pivoting: all infeasible rows are exchanged at once, while that gets anywhere.
 //!
 //! On an active set C take `z_C = -M_CC^-1 q_C`, and `w = M z + q` elsewhere. All rows with `z_i < 0` leave C and all with
-//! `w_j < 0` enter it, until there are none. For a positive definite M that may run in a circle, so it is given up after
-//! some exchanges without progress, and Dantzig's method, which ends, goes on from there.
+//! `w_j < 0` enter it, until there are none. That may run in a circle, so it is given up after some exchanges without
+//! progress, and Dantzig's method, which ends, goes on from the best state with z >= 0 on the way.
 //!
 //! With a singular M a row enters only if the block stays nonsingular, which is looked at row by row as they enter, the
 //! most violated first. Rows that depend on C wait: where `q` lies in the range of `M`, as in contact problems,
@@ -12,13 +12,13 @@
 //! pivoting algorithm for large-scale strictly monotone linear complementarity problems (1994); Kim and Park, Fast
 //! nonnegative matrix factorization: an active-set-like method and comparisons (2011).
 
-use super::{Role, Solver, largest};
+use super::{Role, Snapshot, Solver, largest};
 use crate::{error::LcpError, solution::Status};
 
 /// Exchanges without progress after which the block method is given up. Judice and Pires allow 10 and Kim and Park 3; with
-/// singular matrices the exchanges that lead nowhere are the larger part, so the smaller number costs less
-/// (`docs/theory/block-pivoting.md`).
-const PATIENCE: usize = 3;
+/// singular matrices the exchanges that lead nowhere are the larger part, so a smaller number costs less
+/// (`docs/theory/block-pivoting.md`). Definite ones need a second chance now and then.
+const PATIENCE: usize = 2;
 /// A lower energy counts as progress if it is lower by more than this share of it: above rounding.
 const LOWER: f64 = 1e-12;
 /// A Schur complement above this share of the direction's squared size (unit diagonal) is far from rounding, and the row
@@ -73,37 +73,40 @@ impl Solver {
         })
     }
 
-    /// Exchanges blocks until nothing is infeasible, or else leaves a set of active rows from which the state can be
-    /// settled.
+    /// Exchanges blocks until nothing is infeasible, or else goes back to the best of the complementary states on the way.
     fn exchange_blocks(&mut self, limit: usize) {
-        self.driven = None;
-        for j in 0..self.z.len() {
-            if !self.active.contains(j) {
-                self.z[j] = 0.0;
-            }
+        if !self.settled {
+            self.settle();
         }
-        self.recompute_w();
         let mut progress = Progress::new();
+        let mut best = self.snapshot();
         while self.balance_active() {
             let (leaving, entering) = (self.negative_z(), self.violated_rows());
-            if leaving.is_empty() && entering.is_empty() {
-                self.settled = true;
+            let infeasible = leaving.len() + entering.len();
+            if infeasible == 0 {
                 return;
             }
             let energy = leaving.is_empty().then(|| self.energy());
-            let infeasible = leaving.len() + entering.len();
-            // Settling may have to take out all rows that are active by then.
-            let most = infeasible + self.active.members().len() + entering.len();
-            if self.counts.pivots + most > limit || !progress.goes_on(infeasible, energy) {
+            if energy.is_some_and(|energy| energy < progress.energy) {
+                best = self.snapshot();
+            }
+            // After the exchange there may be all of its active rows to take out again, and those of the best state to put in.
+            let back = self.active.members().len() + entering.len() + best.active.len();
+            if self.counts.pivots + infeasible + back > limit || !progress.goes_on(infeasible, energy) {
                 break;
             }
             if !self.exchange_block(&leaving, &entering) {
                 break;
             }
         }
-        for z in &mut self.z {
-            *z = if z.is_nan() { 0.0 } else { z.max(0.0) };
-        }
+        self.go_back(&best);
+    }
+
+    /// Returns to a state on the way. Every row moved is a pivot here too.
+    fn go_back(&mut self, state: &Snapshot) {
+        let before = self.counts.factor_rows;
+        self.restore(state).expect("a snapshot of this solver");
+        self.counts.pivots += self.counts.factor_rows - before;
         self.settled = false;
     }
 
