@@ -17,6 +17,8 @@ __all__ = [
     "LcpSolution",
     "LcpSolver",
     "Plan",
+    "Recording",
+    "Replay",
     "Scene",
     "SceneError",
     "StartError",
@@ -194,6 +196,33 @@ class Structure:
     def check(self) -> Verdict: ...
     def pivots(self) -> int: ...
     def entries(self) -> int: ...
+
+@final
+class Recording:
+    """The stability tests of one search without shortcuts, in order, with the verdicts of `test`.
+
+    `test` is a callable as `plan` takes it.
+    """
+
+    def __new__(
+        cls, scene: Scene, test: Callable[[list[int], int], tuple[bool, int]]
+    ) -> Recording: ...
+    def replay(self, test: str | Callable[[list[int], int], tuple[bool, int]]) -> Replay:
+        """The same tests by a callable or by name: "lcp", "reuse-dantzig", "reuse", "block",
+        "reuse-block", "lemke" or "reuse-lemke".
+        """
+
+@final
+class Replay:
+    """`wrong` verdicts are unlike those recorded. `seconds` has the analysis before the first test
+    in it.
+    """
+
+    tests: int
+    pivots: int
+    wrong: int
+    unanswered: int
+    seconds: float
 
 @final
 class LcpSolution:

@@ -5,6 +5,7 @@ mod errors;
 mod lcp;
 mod lcp_solver;
 mod plan;
+mod recording;
 mod scene;
 mod structure;
 mod verdict;
@@ -24,6 +25,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<plan::Plan>()?;
     module.add_class::<plan::Generators>()?;
     module.add_class::<structure::Structure>()?;
+    module.add_class::<recording::Recording>()?;
+    module.add_class::<recording::Replay>()?;
     module.add_class::<lcp::LcpSolution>()?;
     module.add_class::<lcp_solver::LcpSolver>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;

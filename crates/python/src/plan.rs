@@ -83,8 +83,8 @@ pub fn generators(py: Python<'_>, scene: &Scene) -> PyResult<Generators> {
 }
 
 /// A stability test written in Python: called with (indices of the blocks, index of the one added last).
-struct Callback {
-    function: Py<PyAny>,
+pub struct Callback {
+    pub function: Py<PyAny>,
 }
 
 impl StabilityTest for Callback {
@@ -107,7 +107,7 @@ struct Watch {
     error: Option<PyErr>,
 }
 
-const PERIOD: Duration = Duration::from_millis(100);
+pub const PERIOD: Duration = Duration::from_millis(100);
 
 impl Monitor for Watch {
     fn go_on(&mut self, progress: Progress) -> bool {

@@ -6,10 +6,14 @@
 
 mod collapse;
 mod graph;
+mod methods;
+mod replay;
 mod search;
 mod stability;
 
 pub use collapse::Collapse;
 pub use graph::{GraphNode, disassembly_graph};
+pub use methods::{ByBlocks, ByLemke};
+pub use replay::{Recorder, Replay, Step, replay};
 pub use search::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord, plan, plan_with};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};
