@@ -138,7 +138,7 @@ def solve(
     - "block": block principal pivoting, for the same M: all infeasible rows are exchanged at once,
       and Dantzig's method finishes where that leads nowhere. A block exchange is a major cycle,
       every row that it moves a pivot.
-    - "lemke": Lemke's method, also for M that is not symmetric. A `start` is the basis it begins at.
+    - "lemke": Lemke's method, also for M that is not symmetric. A `start` is its first basis.
 
     Raises LcpError for entries that are not finite, shapes that do not match, or an M that the
     method cannot take; StartError for a start that is not a solution of its sub-problem. A problem
