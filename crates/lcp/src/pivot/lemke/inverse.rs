@@ -1,6 +1,6 @@
 //! The explicit inverse of a basis, which the lexicographic rule reads row by row.
 
-use super::system::{Column, System, Variable};
+use super::system::{System, Variable};
 use faer::{
     Mat,
     linalg::solvers::{DenseSolveCore, Solve},
@@ -28,9 +28,9 @@ impl BasisInverse {
         &self.rows[r * self.n..(r + 1) * self.n]
     }
 
-    /// `B^-1 a`.
-    pub fn apply(&self, a: &Column) -> Vec<f64> {
-        (0..self.n).map(|r| a.dot(self.row(r))).collect()
+    /// `B^-1 a` for the column of a variable.
+    pub fn apply(&self, system: &System, variable: Variable) -> Vec<f64> {
+        (0..self.n).map(|r| system.dot(variable, self.row(r))).collect()
     }
 
     /// The column at place `r` of B is replaced by `a`, with `direction = B^-1 a`.
@@ -56,12 +56,11 @@ impl BasisInverse {
     /// factored, by LU with partial pivoting: `x_K = B_RK^-1 a_R`, `x_i = a_i - B_iK x_K`.
     pub fn rebuild(&mut self, system: &System, basic: &[Variable]) -> Option<Vec<f64>> {
         let shape = Shape::of(basic);
-        let columns: Vec<Column> = shape.places.iter().map(|&place| system.column(basic[place])).collect();
-        let lu = shape.block(&columns).partial_piv_lu();
+        let lu = shape.block(system).partial_piv_lu();
         let solve = |a: &[f64]| {
             let right = Mat::from_fn(shape.rows.len(), 1, |r, _| a[shape.rows[r]]);
             let found = lu.solve(&right);
-            shape.complete(&columns, a, |k| found[(k, 0)])
+            shape.complete(system, a, |k| found[(k, 0)])
         };
         let mut x = solve(system.q);
         let correction = solve(&system.difference(basic, &x, system.q));
@@ -70,7 +69,7 @@ impl BasisInverse {
         let inverse = lu.inverse();
         self.rows.fill(0.0);
         self.age = 0;
-        for (k, &place) in shape.places.iter().enumerate() {
+        for (k, &(place, _)) in shape.others.iter().enumerate() {
             for (r, &row) in shape.rows.iter().enumerate() {
                 self.rows[place * self.n + row] = inverse[(k, r)];
             }
@@ -78,19 +77,19 @@ impl BasisInverse {
         for &(place, i) in &shape.units {
             self.rows[place * self.n + i] = 1.0;
         }
-        self.fill_unit_rows(&shape, &columns);
+        self.fill_unit_rows(&shape, system);
         (self.rows.iter().chain(&x).all(|value| value.is_finite())).then_some(x)
     }
 
     /// Rows of basic `w_i`: `e_i - B_iK` times the rows of the others.
-    fn fill_unit_rows(&mut self, shape: &Shape, columns: &[Column]) {
-        for (&place, column) in shape.places.iter().zip(columns) {
-            let source = self.row(place).to_vec();
-            for (&i, &value) in column.indices.iter().zip(&column.values) {
-                let Some(target) = shape.unit_at[i] else { continue };
+    fn fill_unit_rows(&mut self, shape: &Shape, system: &System) {
+        for &(place, variable) in &shape.others {
+            let source: Vec<f64> = shape.rows.iter().map(|&r| self.rows[place * self.n + r]).collect();
+            system.for_each(variable, |i, value| {
+                let Some(target) = shape.unit_at[i] else { return };
                 let row = &mut self.rows[target * self.n..(target + 1) * self.n];
-                shape.rows.iter().for_each(|&r| row[r] -= value * source[r]);
-            }
+                shape.rows.iter().zip(&source).for_each(|(&r, source)| row[r] -= value * source);
+            });
         }
     }
 
@@ -106,8 +105,8 @@ struct Shape {
     units: Vec<(usize, usize)>,
     /// The place of `w_i`, where it is basic (n).
     unit_at: Vec<Option<usize>>,
-    /// Places of all other basic variables, K.
-    places: Vec<usize>,
+    /// All other basic variables with their places, K.
+    others: Vec<(usize, Variable)>,
     /// Rows whose `w` is not basic, R; as many.
     rows: Vec<usize>,
 }
@@ -115,40 +114,42 @@ struct Shape {
 impl Shape {
     fn of(basic: &[Variable]) -> Self {
         let mut unit_at = vec![None; basic.len()];
-        let (mut units, mut places) = (Vec::new(), Vec::new());
+        let (mut units, mut others) = (Vec::new(), Vec::new());
         for (place, &variable) in basic.iter().enumerate() {
             if let Variable::W(i) = variable {
                 unit_at[i] = Some(place);
                 units.push((place, i));
             } else {
-                places.push(place);
+                others.push((place, variable));
             }
         }
         let rows = (0..basic.len()).filter(|&i| unit_at[i].is_none()).collect();
-        Self { units, unit_at, places, rows }
+        Self { units, unit_at, others, rows }
     }
 
     /// `B_RK`.
-    fn block(&self, columns: &[Column]) -> Mat<f64> {
+    fn block(&self, system: &System) -> Mat<f64> {
         let mut at = vec![None; self.unit_at.len()];
         self.rows.iter().enumerate().for_each(|(r, &row)| at[row] = Some(r));
-        let mut block = Mat::zeros(self.rows.len(), columns.len());
-        for (k, column) in columns.iter().enumerate() {
-            for (&i, &value) in column.indices.iter().zip(&column.values) {
+        let mut block = Mat::zeros(self.rows.len(), self.others.len());
+        for (k, &(_, variable)) in self.others.iter().enumerate() {
+            system.for_each(variable, |i, value| {
                 if let Some(r) = at[i] {
                     block[(r, k)] = value;
                 }
-            }
+            });
         }
         block
     }
 
     /// All of x from `x_K`.
-    fn complete(&self, columns: &[Column], a: &[f64], x_k: impl Fn(usize) -> f64) -> Vec<f64> {
+    fn complete(&self, system: &System, a: &[f64], x_k: impl Fn(usize) -> f64) -> Vec<f64> {
         let mut rest = a.to_vec();
-        columns.iter().enumerate().for_each(|(k, column)| column.add_to(&mut rest, -x_k(k)));
         let mut x = vec![0.0; a.len()];
-        self.places.iter().enumerate().for_each(|(k, &place)| x[place] = x_k(k));
+        for (k, &(place, variable)) in self.others.iter().enumerate() {
+            x[place] = x_k(k);
+            system.add_to(&mut rest, variable, -x[place]);
+        }
         self.units.iter().for_each(|&(place, i)| x[place] = rest[i]);
         x
     }

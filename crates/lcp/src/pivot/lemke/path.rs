@@ -86,12 +86,14 @@ impl<'a> Path<'a> {
             return None;
         }
         let zero = path.zero();
+        let mut cover = vec![0.0; n];
         for place in 0..n {
             if path.x[place] < -zero {
                 path.lift[place] = 1.0;
-                path.system.column(path.basic[place]).add_to(&mut path.system.cover, 1.0);
+                path.system.for_each(path.basic[place], |i, value| cover[i] += value);
             }
         }
+        path.system.cover = cover;
         path.start = Some(path.basic.clone());
         Some(path)
     }
@@ -153,7 +155,7 @@ impl<'a> Path<'a> {
         let row = self.inverse.row(r);
         match &self.start {
             None => Cow::Borrowed(row),
-            Some(start) => start.iter().map(|&variable| self.system.column(variable).dot(row)).collect(),
+            Some(start) => start.iter().map(|&variable| self.system.dot(variable, row)).collect(),
         }
     }
 
@@ -172,19 +174,18 @@ impl<'a> Path<'a> {
         if self.inverse.age >= RENEW {
             self.renew()?;
         }
-        let column = self.system.column(entering);
-        let direction = self.inverse.apply(&column);
+        let direction = self.inverse.apply(&self.system, entering);
         if self.inverse.age == 0 || self.drift(entering, &direction) <= DRIFT * largest(&direction).max(1.0) {
             return Some(direction);
         }
         self.renew()?;
-        Some(self.inverse.apply(&column))
+        Some(self.inverse.apply(&self.system, entering))
     }
 
     /// Largest entry of `a - B d`.
     fn drift(&self, entering: Variable, direction: &[f64]) -> f64 {
         let mut column = vec![0.0; self.system.len()];
-        self.system.column(entering).add_to(&mut column, 1.0);
+        self.system.add_to(&mut column, entering, 1.0);
         largest(&self.system.difference(&self.basic, direction, &column))
     }
 

@@ -11,26 +11,6 @@ pub(super) enum Variable {
     Cover,
 }
 
-/// Entries of one column.
-pub(super) struct Column {
-    pub indices: Vec<usize>,
-    pub values: Vec<f64>,
-}
-
-impl Column {
-    /// Adds `factor` times the column to `y`.
-    pub fn add_to(&self, y: &mut [f64], factor: f64) {
-        for (&i, value) in self.indices.iter().zip(&self.values) {
-            y[i] += factor * value;
-        }
-    }
-
-    /// Its inner product with a row.
-    pub fn dot(&self, row: &[f64]) -> f64 {
-        self.indices.iter().zip(&self.values).map(|(&i, value)| row[i] * value).sum()
-    }
-}
-
 /// `M` and `q`, equilibrated, and the covering vector.
 #[derive(Debug)]
 pub(super) struct System<'a> {
@@ -46,26 +26,37 @@ impl System<'_> {
         self.q.len()
     }
 
-    pub fn column(&self, variable: Variable) -> Column {
+    /// Calls `each` with row and value of the entries of a column.
+    pub fn for_each(&self, variable: Variable, mut each: impl FnMut(usize, f64)) {
         match variable {
-            Variable::W(i) => Column { indices: vec![i], values: vec![1.0] },
+            Variable::W(i) => each(i, 1.0),
             Variable::Z(j) => {
                 let (indices, values) = self.m.column(j);
-                Column { indices: indices.to_vec(), values: values.iter().map(|value| -value).collect() }
+                indices.iter().zip(values).for_each(|(&i, &value)| each(i, -value));
             }
             Variable::Cover => {
-                let covered = || self.cover.iter().enumerate().filter(|&(_, &c)| c != 0.0);
-                Column { indices: covered().map(|(i, _)| i).collect(), values: covered().map(|(_, c)| -c).collect() }
+                let covered = self.cover.iter().enumerate().filter(|&(_, &c)| c != 0.0);
+                covered.for_each(|(i, &c)| each(i, -c));
             }
         }
+    }
+
+    /// Adds `factor` times a column to `y`.
+    pub fn add_to(&self, y: &mut [f64], variable: Variable, factor: f64) {
+        self.for_each(variable, |i, value| y[i] += factor * value);
+    }
+
+    /// Inner product of a column with a row.
+    pub fn dot(&self, variable: Variable, row: &[f64]) -> f64 {
+        let mut dot = 0.0;
+        self.for_each(variable, |i, value| dot += row[i] * value);
+        dot
     }
 
     /// `right - B x` for the basic variables of B and their values.
     pub fn difference(&self, basic: &[Variable], x: &[f64], right: &[f64]) -> Vec<f64> {
         let mut difference = right.to_vec();
-        for (&variable, &x) in basic.iter().zip(x) {
-            self.column(variable).add_to(&mut difference, -x);
-        }
+        basic.iter().zip(x).for_each(|(&variable, &x)| self.add_to(&mut difference, variable, -x));
         difference
     }
 }
