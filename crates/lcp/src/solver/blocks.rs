@@ -4,8 +4,8 @@
 //! `w_j < 0` enter it, until there are none. That may run in a circle, so it is given up after some exchanges without
 //! progress, and Dantzig's method, which ends, goes on from the best state with z >= 0 on the way.
 //!
-//! With a singular M a row enters only if the block stays nonsingular, which is looked at row by row as they enter, the
-//! most violated first. Rows that depend on C wait: where `q` lies in the range of `M`, as in contact problems,
+//! With a singular M a row enters only if the block clearly stays nonsingular, which is looked at row by row as they
+//! enter, the most violated first. Rows that depend on C wait: where `q` lies in the range of `M`, as in contact problems,
 //! their `w` is zero whenever `w_C` is.
 //!
 //! Kostreva, Block pivot methods for solving the complementarity problem (1978); Judice and Pires, A block principal
@@ -21,8 +21,8 @@ use crate::{error::LcpError, solution::Status};
 const PATIENCE: usize = 2;
 /// A lower energy counts as progress if it is lower by more than this share of it: above rounding.
 const LOWER: f64 = 1e-12;
-/// A Schur complement above this share of the direction's squared size (unit diagonal) is far from rounding, and the row
-/// enters without a closer look.
+/// A row enters with a Schur complement above this share of the direction's squared size (unit diagonal), far above the
+/// rounding in it. Rows that are nearly dependent are left to Dantzig's method, which looks more closely.
 const CLEAR: f64 = 1e-8;
 /// Corrections of `z_C` after each exchange; each gains the digits that the factor has.
 const CORRECTIONS: usize = 3;
@@ -167,16 +167,10 @@ impl Solver {
         self.counts.pivots > before
     }
 
-    /// Whether the active block stays nonsingular with row i: by a Schur complement that is clearly positive, or else by
-    /// the curvature that decides in a major cycle.
+    /// Whether the active block clearly stays nonsingular with row i.
     fn is_independent(&mut self, i: usize) -> bool {
         self.solve_direction(i);
         let size = largest(&self.dz, self.active.members()).max(1.0);
-        if self.m.column_dot(i, &self.dz) > CLEAR * size * size {
-            return true;
-        }
-        self.direction(i);
-        let size = largest(&self.dz, self.active.members()).max(1.0);
-        self.curvature(i) > self.least_slope(size)
+        self.m.column_dot(i, &self.dz) > CLEAR * size * size
     }
 }

@@ -82,7 +82,7 @@ impl Solver {
 
     /// The direction in which only `z_i` and the active `z` move and the active `w` stay zero:
     /// `dz_i = 1`, `dz_C = -M_CC^-1 M_Ci`, `dw = M dz`.
-    pub(super) fn direction(&mut self, i: usize) {
+    fn direction(&mut self, i: usize) {
         self.solve_direction(i);
         self.multiply_direction(i);
         let size = largest(&self.dz, self.active.members()).max(1.0);
@@ -144,13 +144,13 @@ impl Solver {
 
     /// `dz' M dz`, which equals `dw_i` but for the error of the active `dw`: that enters `dw_i` multiplied by the direction's
     /// size and here by nothing.
-    pub(super) fn curvature(&self, i: usize) -> f64 {
+    fn curvature(&self, i: usize) -> f64 {
         self.dw[i] + self.active.members().iter().map(|&j| self.dz[j] * self.dw[j]).sum::<f64>()
     }
 
     /// Curvature at or below which row i depends on the active rows. Rounding in `M` alone, one unit in the last place of
     /// a unit diagonal, changes `dz' M dz` by the square of the direction's size.
-    pub(super) fn least_slope(&self, size: f64) -> f64 {
+    fn least_slope(&self, size: f64) -> f64 {
         (self.settings.singular * size).max(CURVATURE_ROUNDING * size * size)
     }
 
