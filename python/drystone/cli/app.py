@@ -164,7 +164,7 @@ def methods(
     """What reuse gives to other methods: Dantzig's, block pivoting, Lemke's, linear programs.
 
     The stability tests of one search, by each method, from scratch and with reuse (section VI of
-    the paper). The paper's structures take two minutes, most of it for Lemke's method.
+    the paper). On the paper's structures it takes about a minute, most of it for Lemke's method.
     """
     from drystone.cli import bench as command
 
