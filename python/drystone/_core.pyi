@@ -23,12 +23,14 @@ __all__ = [
     "SceneError",
     "StartError",
     "Structure",
+    "StructureForces",
     "TestRecord",
     "Verdict",
     "__version__",
     "catalogue",
     "check",
     "disassembly_graph",
+    "forces_along",
     "generators",
     "lcp_solve",
     "plan",
@@ -99,6 +101,7 @@ class Body:
     mass: float
     inertia: float
     centroid: tuple[float, float]
+    angle: float
     vertices: NDArray[np.float64]
 
 @final
@@ -225,6 +228,20 @@ class Replay:
     seconds: float
 
 @final
+class StructureForces:
+    """Forces of some structures of an order: those of the k-th are entries offsets[k]:offsets[k+1].
+
+    `blocks[k]` is its number of movable bodies, `stands[k]` whether forces hold it up. `contact` is
+    an index into `Scene.contacts()`; `force` (n, 2) acts on the contact's second body, N.
+    """
+
+    blocks: NDArray[np.int64]
+    stands: NDArray[np.bool_]
+    offsets: NDArray[np.int64]
+    contact: NDArray[np.int64]
+    force: NDArray[np.float64]
+
+@final
 class LcpSolution:
     z: NDArray[np.float64]
     w: NDArray[np.float64]
@@ -290,6 +307,18 @@ def plan(
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
     `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
+    """
+
+def forces_along(
+    scene: Scene,
+    order: Sequence[str],
+    every: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> StructureForces:
+    """Contact forces while movable bodies are put up in an order, the first put up first.
+
+    Of structures whose number of blocks is that of all less a multiple of `every`. `progress` is
+    called with (blocks placed, blocks in all) a few times a second.
     """
 
 def disassembly_graph(scene: Scene) -> list[tuple[list[str], bool]]:

@@ -5,6 +5,7 @@
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
 mod collapse;
+mod forces;
 mod graph;
 mod methods;
 mod replay;
@@ -12,6 +13,7 @@ mod search;
 mod stability;
 
 pub use collapse::Collapse;
+pub use forces::{StructureForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
 pub use replay::{Recorder, Replay, Step, replay};
