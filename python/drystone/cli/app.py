@@ -98,7 +98,10 @@ def plan(
     output: Annotated[
         Path | None,
         typer.Option(
-            "-o", "--output", help="Write a picture, .svg or .png; the plans of a folder."
+            "-o",
+            "--output",
+            help="Write a picture, .svg or .png, or a page to step through, .html; "
+            "the plans of a folder.",
         ),
     ] = None,
     engine: Annotated[
