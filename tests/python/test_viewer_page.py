@@ -244,6 +244,20 @@ def test_forces_and_names_can_be_switched_off(opened: Opener, plan: ds.Plan) -> 
     assert not np.array_equal(pixels(tab), without)
 
 
+def test_frames_without_forces_show_those_before_and_say_so(opened: Opener, plan: ds.Plan) -> None:
+    from dataclasses import replace
+
+    recording = plan.view().recording
+    assert recording.forces is not None
+    kept = np.arange(6) % 2 == 0
+    tab = opened(Page(replace(recording, forces=replace(recording.forces, kept=kept))))
+    tab.click("#forward")
+    says(tab, "caption", "5 is taken away; 4 blocks left. Next: 4. (Forces: those of step 0.)")
+    assert count(pixels(tab), LIGHT["force"]) > 200
+    tab.click("#forward")
+    says(tab, "caption", "4 is taken away; 3 blocks left. Next: 3.")
+
+
 def _hover(tab: Tab, x: float, y: float) -> Locator:
     """Move the pointer to a place of the picture, as shares of its width and height."""
     box = tab.locator("#scene").bounding_box()

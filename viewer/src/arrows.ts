@@ -5,6 +5,8 @@ import type { Palette } from "./palette.ts";
 
 /** Arrows shorter than this (pixels) are not drawn: they would be dots. */
 const SHORTEST = 1.5;
+/** More arrows than this have no halo, which would cost more than all the rest. */
+const MANY = 600;
 /** How long the force is that few exceed, in typical block sizes. */
 const LENGTH = 1.1;
 /** The share of forces that are not longer than that: an impact may be far beyond. */
@@ -14,20 +16,7 @@ const FEW = 0.99;
 export function forceScale(film: Film): number {
     const sorted = film.magnitudes().sort();
     const large = sorted[Math.min(Math.floor(FEW * sorted.length), sorted.length - 1)] ?? 0;
-    return large > 0 ? (LENGTH * typicalSize(film)) / large : 0;
-}
-
-/** The median over bodies of the square root of the area of the bounding box, m. */
-export function typicalSize(film: Film): number {
-    const sizes = film.bodies
-        .filter(({ fixed }) => !fixed)
-        .map(({ vertices }) => {
-            const [xs, ys] = [vertices.map(([x]) => x), vertices.map(([, y]) => y)];
-            const side = (values: number[]) => Math.max(...values) - Math.min(...values);
-            return Math.sqrt(side(xs) * side(ys));
-        })
-        .sort((a, b) => a - b);
-    return sizes[sizes.length >> 1] ?? 1;
+    return large > 0 ? (LENGTH * film.typicalSize) / large : 0;
 }
 
 /** A force as it acts on the body that is carried: against gravity. */
@@ -50,7 +39,7 @@ export function drawForces(
         const pixels = metres * camera.scale;
         arrow(path, camera.screenX(force.x), camera.screenY(force.y), pixels * fx, -pixels * fy);
     }
-    paint(context, path, colours);
+    paint(context, path, colours, forces.length <= MANY);
 }
 
 /** An arrow of a round force in the lower left corner, with its value. */
@@ -73,7 +62,7 @@ export function drawKey(
     context.globalAlpha = 1;
     const path = new Path2D();
     arrow(path, x, y, length, 0);
-    paint(context, path, colours);
+    paint(context, path, colours, true);
     context.fillStyle = colours.ink;
     context.fillText(text, x + length + 7, y);
 }
@@ -104,14 +93,21 @@ function arrow(path: Path2D, x: number, y: number, dx: number, dy: number): void
     path.lineTo(...at(neck, -wide));
     path.lineTo(...at(neck, -shaft));
     path.lineTo(...at(0, -shaft));
-    path.closePath();
+    path.lineTo(...at(0, shaft)); // not closePath, see blocks.ts
 }
 
-function paint(context: CanvasRenderingContext2D, path: Path2D, colours: Palette): void {
-    context.lineJoin = "round";
-    context.strokeStyle = colours.page;
-    context.lineWidth = 1.6;
-    context.stroke(path);
+function paint(
+    context: CanvasRenderingContext2D,
+    path: Path2D,
+    colours: Palette,
+    halo: boolean,
+): void {
+    if (halo) {
+        context.lineJoin = "round";
+        context.strokeStyle = colours.page;
+        context.lineWidth = 1.6;
+        context.stroke(path);
+    }
     context.fillStyle = colours.force;
     context.fill(path);
 }

@@ -35,7 +35,11 @@ export class Film {
     readonly gravity: [number, number];
     readonly bodies: Body[];
     readonly count: number;
+    /** Width and height of each body in its own frame, m. */
+    readonly sizes: [number, number][];
     readonly series: { name: string; unit: string; values: Float32Array }[];
+    /** The median over movable bodies of the square root of the area of the bounding box, m. */
+    readonly typicalSize: number;
     private readonly arrays: FilmArrays;
     private readonly captions: [number, string][];
 
@@ -47,6 +51,10 @@ export class Film {
         this.bodies = recording.bodies;
         this.count = recording.frames.count;
         this.captions = recording.frames.captions;
+        this.sizes = this.bodies.map(({ vertices }) => [spread(vertices, 0), spread(vertices, 1)]);
+        const movable = this.sizes.filter((_, body) => !this.bodies[body].fixed);
+        const sides = movable.map(([width, height]) => Math.sqrt(width * height));
+        this.typicalSize = sides.sort((a, b) => a - b)[sides.length >> 1] ?? 1;
         this.arrays = arrays;
         this.series = recording.series.map(({ name, unit }, k) => ({
             name,
@@ -78,23 +86,33 @@ export class Film {
 
     /** Corners of a body in the world, as x, y, x, y, ... */
     corners(frame: number, body: number): number[] {
+        const { vertices } = this.bodies[body];
         const [x, y, turn] = this.pose(frame, body);
         const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
-        return this.bodies[body].vertices.flatMap(([vx, vy]) => [
-            x + cos * vx - sin * vy,
-            y + sin * vx + cos * vy,
-        ]);
+        const corners = new Array<number>(2 * vertices.length);
+        for (let i = 0; i < vertices.length; i++) {
+            const [vx, vy] = vertices[i];
+            corners[2 * i] = x + cos * vx - sin * vy;
+            corners[2 * i + 1] = y + sin * vx + cos * vy;
+        }
+        return corners;
     }
 
     get hasForces(): boolean {
         return this.arrays.forces !== null;
     }
 
+    /** The last frame up to `frame` whose forces are in the recording; -1 for none. */
+    forcesFrame(frame: number): number {
+        const frames = this.arrays.forces?.frames ?? new Uint32Array();
+        return frames[lastUpTo(frames, frame)] ?? -1;
+    }
+
     /** Contact forces of a frame; null if they are not in the recording. */
     forces(frame: number): Force[] | null {
         const { forces } = this.arrays;
-        const k = forces ? position(forces.frames, frame) : -1;
-        if (!forces || k < 0) return null;
+        if (!forces || this.forcesFrame(frame) !== frame) return null;
+        const k = lastUpTo(forces.frames, frame);
         const m = forces.points.length / 2;
         const found: Force[] = [];
         for (let i = forces.offsets[k]; i < forces.offsets[k + 1]; i++) {
@@ -137,13 +155,18 @@ export class Film {
     }
 }
 
-/** Index of `value` in an ascending array, -1 if it is not there. */
-export function position(ascending: Uint32Array, value: number): number {
+function spread(vertices: [number, number][], axis: 0 | 1): number {
+    const values = vertices.map((vertex) => vertex[axis]);
+    return Math.max(...values) - Math.min(...values);
+}
+
+/** Index of the last of some ascending numbers that is not above `value`, -1 for none. */
+export function lastUpTo(ascending: Uint32Array, value: number): number {
     let [low, high] = [0, ascending.length];
     while (low < high) {
         const middle = (low + high) >> 1;
-        if (ascending[middle] < value) low = middle + 1;
+        if (ascending[middle] <= value) low = middle + 1;
         else high = middle;
     }
-    return ascending[low] === value ? low : -1;
+    return low - 1;
 }

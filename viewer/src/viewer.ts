@@ -110,11 +110,8 @@ export class Viewer {
         surface.canvas.classList.toggle("zoomed", camera.zoomed);
         surface.clear(colours.page);
         const marked = this.pointer ? this.bodyAt(this.pointer) : this.selected;
-        drawBlocks(surface.context, film, frame, camera, this.fade, {
-            colours,
-            names: this.showsNames,
-            marked,
-        });
+        const scene = { context: surface.context, film, frame, camera };
+        drawBlocks(scene, this.fade, { colours, names: this.showsNames, marked });
         if (this.showsForces) this.drawForces(frame);
         this.showCard(frame, marked);
         this.say(frame);
@@ -125,7 +122,10 @@ export class Viewer {
     private drawForces(frame: number): void {
         const { film, surface, camera, colours } = this;
         const metres = this.metres * this.stretch;
-        drawForces(surface.context, film, film.forces(frame) ?? [], camera, metres, colours);
+        const there = (body: number) => film.state(frame, body) !== State.absent;
+        const known = film.forces(film.forcesFrame(frame)) ?? [];
+        const forces = known.filter(({ a, b }) => there(a) && there(b));
+        drawForces(surface.context, film, forces, camera, metres, colours);
         drawKey(surface.context, surface.height, metres * camera.scale, colours);
     }
 
@@ -142,10 +142,10 @@ export class Viewer {
     private say(frame: number): void {
         const { film, timeline } = this;
         const where = place(film, frame);
-        let what = caption(film, frame);
-        if (this.showsForces && film.hasForces && film.forces(frame) === null) {
-            what += " (the forces of this step are not in this page)";
-        }
+        const shown = film.forcesFrame(frame);
+        const old = this.showsForces && shown !== frame;
+        const of = shown < 0 ? "none" : `those of step ${film.step(shown)}`;
+        const what = caption(film, frame) + (old ? ` (Forces: ${of}.)` : "");
         element("place").textContent = where;
         const said = element("caption");
         // Read aloud where the watcher stops, not sixty times a second.

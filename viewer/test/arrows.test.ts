@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { carrying, forceScale, roundBelow, typicalSize } from "../src/arrows.ts";
+import { carrying, forceScale, roundBelow } from "../src/arrows.ts";
 import { filmOf, planRecording, runRecording } from "./fixture.ts";
 
 test("forces are drawn as they act on the body that is carried", () => {
@@ -11,7 +11,7 @@ test("forces are drawn as they act on the body that is carried", () => {
 
 test("large forces are about as long as a block", async () => {
     const film = await filmOf(planRecording());
-    assert.equal(typicalSize(film), 1);
+    assert.equal(film.typicalSize, 1);
     assert.ok(Math.abs(40 * forceScale(film) - 1.1) < 1e-6);
     assert.equal(forceScale(await filmOf(runRecording())), 0, "no forces, no scale");
 });

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { State } from "../src/contract.ts";
-import { position } from "../src/film.ts";
+import { lastUpTo } from "../src/film.ts";
 import { array, unpack } from "../src/unpack.ts";
 import { filmOf, packed, planRecording, runRecording } from "./fixture.ts";
 
@@ -13,6 +13,7 @@ test("states, forces and captions of a plan arrive", async () => {
     assert.equal(film.state(1, 2), State.absent);
     assert.deepEqual(film.forces(0)?.[1], { a: 2, b: 1, x: 0.25, y: 1, fx: 3, fy: -4 });
     assert.equal(film.forces(1), null, "not kept");
+    assert.equal(film.forcesFrame(1), 0, "but those of the frame before are");
     assert.deepEqual(film.forces(2), [], "none there");
     assert.deepEqual([...film.magnitudes()], [40, 5]);
     assert.deepEqual(
@@ -58,10 +59,10 @@ test("another version, another format and damage are refused in words", async ()
 });
 
 test("positions in ascending numbers", () => {
-    const numbers = Uint32Array.of(0, 3, 7);
+    const numbers = Uint32Array.of(1, 3, 7);
     assert.deepEqual(
-        [0, 3, 7, 1, 8].map((value) => position(numbers, value)),
-        [0, 1, 2, -1, -1],
+        [0, 1, 2, 3, 7, 8].map((value) => lastUpTo(numbers, value)),
+        [-1, 0, 0, 1, 2, 2],
     );
-    assert.equal(position(new Uint32Array(), 0), -1);
+    assert.equal(lastUpTo(new Uint32Array(), 0), -1);
 });

@@ -40,7 +40,7 @@ def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
     notes = [
         f"{counted(plan.tests, 'stability test')} ({plan.test}), {counted(plan.pivots, 'pivot')}. "
         "A chart's value at a step is that of all tests on structures of as many blocks; the whole "
-        "is checked apart."
+        "is checked apart. Where a structure is redundant, other forces hold it up as well."
     ]
     return Recording(
         kind="plan",
