@@ -11,10 +11,11 @@ from typing import Any, get_type_hints
 
 import numpy as np
 import pytest
+from matplotlib.patches import FancyArrow
 
 import drystone as ds
 from conftest import ROOT, Ran, orderless
-from drystone import _core
+from drystone import _core, pictures
 from drystone.viewer import budget, contract, page
 from drystone.viewer.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT, unpacked
 from drystone.viewer.of_plan import plan_recording
@@ -336,6 +337,36 @@ def test_pages_are_written_whole_or_not_at_all(tmp_path: Path) -> None:
 def test_the_same_plan_is_the_same_page() -> None:
     plan = ds.plan(ds.scenes.random_stack(20))
     assert plan.view().html() == plan.view().html()
+
+
+def test_frames_are_drawn_as_pictures(tmp_path: Path) -> None:
+    shown = _run()
+    paths = shown.save_frames(tmp_path / "frames", [0, 6])
+    assert [path.name for path in paths] == ["frame-00000.png", "frame-00006.png"]
+    assert all(path.read_bytes().startswith(b"\x89PNG") for path in paths)
+    assert paths[0].read_bytes() != paths[1].read_bytes()
+    assert len(ds.plan(ds.scenes.column(3)).view().save_frames(tmp_path, suffix=".svg")) == 3
+    with pytest.raises(IndexError, match="frames 0 to 6"):
+        shown.save_frames(tmp_path, [7])
+
+
+def test_a_frame_s_picture_has_bodies_where_they_are_and_forces_to_one_scale() -> None:
+    """The force of the later frame is half as large: its arrow is half as long."""
+    vectors = np.tile([0.0, 9.81], (7, 1))
+    vectors[6] /= 2
+    recording = _run().recording
+    assert recording.forces is not None
+    halved = replace(recording, forces=replace(recording.forces, vectors=vectors))
+    figures = [pictures.frame_figure(halved, frame) for frame in (0, 6)]
+    lengths, tops = [], []
+    for figure in figures:
+        arrow = next(p for p in figure.axes[0].patches if isinstance(p, FancyArrow))
+        lengths.append(np.ptp(arrow.get_xy(), axis=0).max())
+        drawn = [path.vertices for c in figure.axes[0].collections for path in c.get_paths()]
+        tops.append(max(np.asarray(corners)[:, 1].max() for corners in drawn))
+    assert lengths[1] == pytest.approx(lengths[0] / 2)
+    assert tops[0] - tops[1] == pytest.approx(4.905 * (6 / 240) ** 2)
+    assert figures[0].axes[0].get_ylim() == figures[1].axes[0].get_ylim()
 
 
 def test_notebooks_get_a_frame_of_bounded_size() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Iterable
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -49,6 +50,27 @@ class Page:
         if target.suffix.lower() != ".html":
             raise ValueError(f"a page's name ends in .html, not {target.suffix or 'nothing'!r}")
         write_whole(target, self.html().encode())
+
+    def save_frames(
+        self,
+        folder: str | PathLike[str],
+        frames: Iterable[int] | None = None,
+        suffix: str = ".png",
+    ) -> list[Path]:
+        """Draw frames (all by default) as pictures frame-00000.png, ...; return their paths.
+
+        `suffix` is ".png" or ".svg". The folder is made if it is not there. All have the same view.
+        """
+        from drystone import pictures
+
+        target = Path(fspath(folder))
+        target.mkdir(parents=True, exist_ok=True)
+        written = []
+        for frame in range(len(self.recording.states)) if frames is None else frames:
+            path = target / f"frame-{frame:05}{suffix}"
+            pictures.save(pictures.frame_figure(self.recording, frame), path)
+            written.append(path)
+        return written
 
     def _repr_html_(self) -> str:
         """A frame of its own, so that page and notebook do not touch each other."""
