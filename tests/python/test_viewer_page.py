@@ -128,7 +128,7 @@ def count(picture: np.ndarray, colour: str) -> int:
     return int(np.sum(np.all(np.abs(picture - wanted) <= 2, axis=2)))
 
 
-LIGHT = {"stone": "#e4dccb", "still": "#7b8188", "next": "#e69f00", "force": "#005fa3"}
+LIGHT = {"stone": "#e4dccb", "still": "#6b7178", "next": "#e69f00", "force": "#005fa3"}
 
 
 def press(tab: Tab, *keys: str) -> None:

@@ -104,7 +104,7 @@ def _note(recording: Recording, frame: int) -> str:
     step = frame if recording.steps is None else int(recording.steps[frame])
     when = "" if recording.times is None else f"{recording.times[frame]:.3f} s, "
     said = [text for at, text in recording.captions if at <= frame]
-    return f"{when}step {step}. {said[-1] if said else ''}".rstrip()
+    return f"{when}step {step}" + (f". {said[-1]}" if said else "")
 
 
 def _draw_forces(canvas: Canvas, recording: Recording, forces: FrameForces, frame: int) -> None:
