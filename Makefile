@@ -37,9 +37,10 @@ demo: build
 	@echo "== planning the 84-block random assembly"
 	@mkdir -p $(OUT)
 	@$(BIN)/drystone plan random_stack:84 -o $(OUT)/plan.svg
+	@$(BIN)/drystone plan random_stack:84 -o $(OUT)/plan.html >/dev/null
 	@echo "== the paper's Table I and Figs. 5 to 7"
 	@$(BIN)/drystone bench paper -o $(OUT)
-	@echo "Done. Pictures and table are in $(OUT)/"
+	@echo "Done. Pictures and table are in $(OUT)/; open $(OUT)/plan.html to see the plan played."
 
 # The wheel's build and the tests share the release profile: dependencies are compiled once.
 test: test-tools style build rust-tests viewer-tests python-tests lint
