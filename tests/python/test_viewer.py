@@ -272,6 +272,7 @@ def test_long_runs_are_thinned_and_say_so() -> None:
     pivots = np.asarray(small.series[0].values)
     assert np.nansum(pivots) == np.arange(steps).sum(), "sums of the steps between"
     assert pivots[1] == 0 + 1 + 2 + 3
+    assert small.series[0].name == "pivots per step, sums of 4"
     assert small.forces is not None
     assert np.asarray(small.forces.offsets).tolist() == list(range(252))
     assert any("Every 4th step is shown" in note for note in small.notes)

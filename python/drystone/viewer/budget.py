@@ -60,7 +60,7 @@ def _with_fewer_frames(recording: Recording, most: int) -> Recording:
         times=None if recording.times is None else recording.times[kept],
         steps=steps[kept],
         forces=None if recording.forces is None else _chosen(recording.forces, kept),
-        series=[_summed(one, kept) for one in recording.series],
+        series=[_summed(one, kept, every) for one in recording.series],
         captions=[(int(np.searchsorted(kept, at)), text) for at, text in recording.captions],
         notes=notes,
     )
@@ -103,11 +103,11 @@ def _chosen(forces: FrameForces, frames: NDArray[np.int64]) -> FrameForces:
     )
 
 
-def _summed(series: Series, kept: NDArray[np.int64]) -> Series:
+def _summed(series: Series, kept: NDArray[np.int64], every: int) -> Series:
     """Sums over the frames since the last one kept; the first kept is the first."""
     values = np.nan_to_num(np.asarray(series.values, dtype=np.float64))
     sums = np.diff(np.concatenate([[0.0], np.cumsum(values)[kept]]))
-    return replace(series, values=sums)
+    return replace(series, name=f"{series.name}, sums of {every}", values=sums)
 
 
 def _ordinal(number: int) -> str:

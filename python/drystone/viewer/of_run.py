@@ -53,7 +53,7 @@ def run_recording(
     states = np.where(_still(motionless, steps, bodies), MOTIONLESS, PRESENT)
     return Recording(
         kind="run",
-        title=title or f"{len(scene)} bodies, {steps} steps",
+        title=title or f"{len(scene):,} bodies, {steps:,} steps",
         bodies=scene.bodies,
         states=np.where(absent, ABSENT, states).astype(np.uint8),
         gravity=scene.gravity,
