@@ -124,7 +124,7 @@ def test_without_an_order_the_largest_structure_is_shown() -> None:
     assert len(recording.states) == len(plan.reached) + 1
     falling = {names[i] for i in np.flatnonzero(recording.states[0] == FALLING)}
     assert falling == set(plan.falls_next)
-    assert "something falls" in recording.captions[0][1]
+    assert "With plank something falls." in recording.captions[0][1]
 
 
 def test_an_assembly_that_falls_is_one_frame() -> None:

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import drystone as ds
+from conftest import orderless
 from drystone.viewer import FrameForces, Page, run_page
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
@@ -400,6 +401,13 @@ def test_everything_has_a_name_for_those_who_do_not_see_it(opened: Opener, plan:
     expect(tab.locator("#scrub")).to_have_attribute(
         "aria-valuetext", "Step 0 of 5. The whole structure: 5 blocks. Next: 5."
     )
+
+
+def test_without_an_order_what_was_never_there_is_not_taken_away(opened: Opener) -> None:
+    tab = opened(ds.plan(orderless(1)).view())
+    expect(tab.locator("#legend")).to_contain_text("not there")
+    expect(tab.locator("#legend li").last).to_have_text("fixed")
+    assert "taken away" not in tab.locator("#legend li").all_inner_texts()
 
 
 def test_what_does_not_stand_is_shown_falling(opened: Opener) -> None:

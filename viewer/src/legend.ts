@@ -10,12 +10,13 @@ export function drawLegend(list: HTMLElement, film: Film): void {
         });
     }
     const plan = film.kind === "plan";
+    const never = film.bodies.some((_, body) => film.state(0, body) === State.absent);
     const words: [State, string, string][] = [
         [State.present, "present", plan ? "stands" : "moves"],
         [State.motionless, "motionless", "motionless"],
         [State.next, "next", "next to be taken away"],
         [State.falling, "falling", "falls"],
-        [State.absent, "absent", "taken away"],
+        [State.absent, "absent", never ? "not there" : "taken away"],
     ];
     const shown = words.filter(([state]) => states.has(state) && (plan || state !== State.absent));
     const items = shown.map(([, kind, text]) => item(kind, text));

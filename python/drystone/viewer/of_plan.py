@@ -81,7 +81,8 @@ def _captions(plan: Plan, order: Sequence[str]) -> list[tuple[int, str]]:
         else:
             text = f"The largest structure reached: {left}."
         if step == 0 and plan.falls_next:
-            text += f" With any of {shorten(plan.falls_next)} something falls."
+            any_of = "any of " if len(plan.falls_next) > 1 else ""
+            text += f" With {any_of}{shorten(plan.falls_next)} something falls."
         if step < len(order):
             text += f" Next: {order[step]}."
         captions.append((step, text))
