@@ -90,7 +90,7 @@ $(PAGE): viewer/node_modules/.ready $(PAGE_SOURCES)
 viewer/node_modules/.ready: viewer/package-lock.json | $(VENV)/.ready
 	@echo "== fetching the viewer's packages"
 	@$(NPM) ci --ignore-scripts --fetch-retries=1 >$(NPM_LOG) 2>&1 || \
-	    { echo "npm ci failed (is registry.npmjs.org within reach?): see $(NPM_LOG)" >&2; exit 1; }
+	    { echo "npm ci failed (is the npm registry within reach?): see $(NPM_LOG)" >&2; exit 1; }
 	@rm -f $(NPM_LOG)
 	@touch $@
 
