@@ -20,7 +20,7 @@ impl ConeSolver {
             }
         }
         let mut felt = Vec::new();
-        if positions.into_iter().all(|position| self.put_unit(position, &mut felt).is_some()) {
+        if self.put_units(positions, &mut felt) {
             self.pass_on(&felt);
         } else {
             let mut remaining = self.basis_set();
@@ -50,6 +50,19 @@ impl ConeSolver {
         }
         self.changes.push(Change::Gone { row, group: self.factor.group(row) });
         self.leave_group(row);
+    }
+
+    /// Puts unit columns into all of these positions, in an order in which that works. False if there is none, or an unlucky
+    /// start.
+    fn put_units(&mut self, mut positions: Vec<u32>, felt: &mut Vec<u32>) -> bool {
+        while !positions.is_empty() {
+            let before = positions.len();
+            positions.retain(|&position| self.put_unit(position, felt).is_none());
+            if positions.len() == before {
+                return false;
+            }
+        }
+        true
     }
 
     /// Puts the unit column of its row into a position, and notes the rows that feel that its column has gone. None if the
