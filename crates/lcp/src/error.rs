@@ -110,6 +110,30 @@ pub enum LcpError {
         /// The entry.
         value: f64,
     },
+    /// The origins given to [`Solver::follow`](crate::Solver::follow) do not fit the two problems.
+    #[error("the origins do not fit: {reason}")]
+    Origins {
+        /// What is wrong with them.
+        reason: String,
+    },
+    /// An entry between two rows that were said to be unchanged is another one.
+    #[error("M[{row}, {column}] is {value:e} and was {before:e}: a row whose entries change has the origin `Moved`")]
+    RowChanged {
+        /// Row of the entry in the new problem.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// What it was.
+        before: f64,
+    },
+    /// A kept state does not belong to this problem.
+    #[error("the state is not one of this problem: {reason}")]
+    ForeignState {
+        /// What does not fit.
+        reason: String,
+    },
     /// A start that cannot be used.
     #[error("the start cannot be used: {0}")]
     Start(#[from] StartError),

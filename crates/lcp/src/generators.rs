@@ -15,38 +15,52 @@ impl Problem {
     /// product is too large for a number.
     pub fn from_generators(g: &Columns, inverse_mass: &[f64], h: &[f64]) -> Result<Self, LcpError> {
         require_fit(g, inverse_mass, h)?;
-        let n = g.len();
-        let mut by_row: Vec<Vec<(usize, f64)>> = vec![Vec::new(); g.rows()];
-        for j in 0..n {
-            for &(row, value) in g.column(j as u32) {
-                by_row[row as usize].push((j, value));
-            }
-        }
-        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
-        let mut sum = vec![0.0; n];
-        let mut seen = vec![usize::MAX; n];
-        for j in 0..n {
-            let start = indices.len();
-            for &(row, value) in g.column(j as u32) {
-                for &(i, other) in &by_row[row as usize] {
-                    if std::mem::replace(&mut seen[i], j) != j {
-                        sum[i] = 0.0;
-                        indices.push(i);
-                    }
-                    // The two values first: the product is then the same for [i, j] and [j, i].
-                    sum[i] += other * value * inverse_mass[row as usize];
-                }
-            }
-            indices[start..].sort_unstable();
-            data.extend(indices[start..].iter().map(|&i| sum[i]));
-            indptr.push(indices.len());
-        }
         let along = |j: usize| -> f64 {
             let column = g.column(j as u32).iter();
             column.map(|&(row, value)| value * inverse_mass[row as usize] * h[row as usize]).sum()
         };
-        Self::new(SparseColumns::new(n, indptr, indices, data)?, (0..n).map(|j| -along(j)).collect())
+        Self::of_gram(gram(g, inverse_mass)?, (0..g.len()).map(|j| -along(j)).collect())
     }
+
+    /// `M = G' W G` with any `q` (n): generators as in [`Self::from_generators`] under loads given along each of them.
+    ///
+    /// # Errors
+    /// [`LcpError::GeneratorShape`], [`LcpError::InverseMass`]; as [`Self::new`] for `q`.
+    pub fn from_generators_and_q(g: &Columns, inverse_mass: &[f64], q: Vec<f64>) -> Result<Self, LcpError> {
+        require_fit(g, inverse_mass, &vec![0.0; g.rows()])?;
+        Self::of_gram(gram(g, inverse_mass)?, q)
+    }
+}
+
+/// `G' W G`, symmetric to the last bit.
+fn gram(g: &Columns, inverse_mass: &[f64]) -> Result<SparseColumns, LcpError> {
+    let n = g.len();
+    let mut by_row: Vec<Vec<(usize, f64)>> = vec![Vec::new(); g.rows()];
+    for j in 0..n {
+        for &(row, value) in g.column(j as u32) {
+            by_row[row as usize].push((j, value));
+        }
+    }
+    let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+    let mut sum = vec![0.0; n];
+    let mut seen = vec![usize::MAX; n];
+    for j in 0..n {
+        let start = indices.len();
+        for &(row, value) in g.column(j as u32) {
+            for &(i, other) in &by_row[row as usize] {
+                if std::mem::replace(&mut seen[i], j) != j {
+                    sum[i] = 0.0;
+                    indices.push(i);
+                }
+                // The two values first: the product is then the same for [i, j] and [j, i].
+                sum[i] += other * value * inverse_mass[row as usize];
+            }
+        }
+        indices[start..].sort_unstable();
+        data.extend(indices[start..].iter().map(|&i| sum[i]));
+        indptr.push(indices.len());
+    }
+    SparseColumns::new(n, indptr, indices, data)
 }
 
 fn require_fit(g: &Columns, inverse_mass: &[f64], h: &[f64]) -> Result<(), LcpError> {

@@ -45,4 +45,4 @@ pub use problem::Problem;
 pub use reuse::{Start, StartError};
 pub use settings::Settings;
 pub use solution::{Solution, Status, residual};
-pub use solver::{Snapshot, Solver};
+pub use solver::{Origin, Snapshot, Solver, SolverState};

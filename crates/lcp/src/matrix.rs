@@ -121,6 +121,11 @@ impl SparseColumns {
         &self.indices
     }
 
+    /// Whether entries are stored at the same places.
+    pub(crate) fn same_pattern(&self, other: &Self) -> bool {
+        self.indptr == other.indptr && self.indices == other.indices
+    }
+
     /// Entry `[i, j]`, zero where none is stored.
     pub fn get(&self, i: usize, j: usize) -> f64 {
         let (rows, values) = self.column(j);

@@ -3,10 +3,19 @@
 use crate::{error::LcpError, matrix::SparseColumns};
 
 /// `w = M z + q`, `0 <= z` complementary to `w >= 0`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Problem {
     m: SparseColumns,
     q: Vec<f64>,
+    /// `M` is symmetric positive semidefinite by the way it was made.
+    gram: bool,
+}
+
+/// How `M` was made makes no difference.
+impl PartialEq for Problem {
+    fn eq(&self, other: &Self) -> bool {
+        self.m == other.m && self.q == other.q
+    }
 }
 
 /// Two mirrored entries of a symmetric matrix may differ by this much, relative to `sqrt(M_ii M_jj)`: what
@@ -28,7 +37,12 @@ impl Problem {
         if let Some(index) = q.iter().position(|value| !value.is_finite()) {
             return Err(LcpError::VectorNotFinite { index, value: q[index] });
         }
-        Ok(Self { m, q })
+        Ok(Self { m, q, gram: false })
+    }
+
+    /// The same, where `M` is a product `G' W G` in exact symmetry: nobody needs to look again.
+    pub(crate) fn of_gram(m: SparseColumns, q: Vec<f64>) -> Result<Self, LcpError> {
+        Ok(Self { gram: true, ..Self::new(m, q)? })
     }
 
     /// Takes a dense matrix, n x n in row-major order.
@@ -75,7 +89,8 @@ impl Problem {
 
     /// The principal sub-problem on `indices` (Theorem 1 of Loomis and Balkcom starts from its solution).
     pub fn principal(&self, indices: &[usize]) -> Self {
-        Self { m: self.m.principal(indices), q: indices.iter().map(|&i| self.q[i]).collect() }
+        let q = indices.iter().map(|&i| self.q[i]).collect();
+        Self { m: self.m.principal(indices), q, gram: self.gram }
     }
 
     /// Checks that `M` is symmetric and that no principal block of order one or two is indefinite, as principal pivoting
@@ -84,6 +99,9 @@ impl Problem {
     /// # Errors
     /// [`LcpError::NotSymmetric`] or [`LcpError::NotSemidefinite`], naming the first offending entry.
     pub fn require_symmetric(&self) -> Result<(), LcpError> {
+        if self.gram {
+            return Ok(());
+        }
         let diagonal: Vec<f64> = (0..self.len()).map(|i| self.m.get(i, i)).collect();
         if let Some(index) = diagonal.iter().position(|&value| value < 0.0) {
             return Err(LcpError::NotSemidefinite { index, curvature: diagonal[index] });

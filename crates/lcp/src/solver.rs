@@ -11,8 +11,13 @@
 
 mod blocks;
 mod drive;
+mod follow;
 mod settle;
 mod snapshot;
+mod state;
+
+pub use follow::Origin;
+pub use state::SolverState;
 
 use crate::{
     basis::Basis,
@@ -28,10 +33,11 @@ use crate::{
     settings::Settings,
     solution::{Solution, Status},
 };
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// What is known of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Role {
     /// Not part of the problem being solved.
     Absent,
@@ -150,10 +156,22 @@ impl Solver {
         problem.require_symmetric()?;
         let scaling = Scaling::new(&problem);
         let m = problem.m().scaled_symmetrically(&scaling.d);
+        let factor = factor::choose(&m);
+        Ok(Self::assembled(problem, scaling, m, factor, settings))
+    }
+
+    /// A solver of these parts without any row.
+    fn assembled(
+        problem: Problem,
+        scaling: Scaling,
+        m: SparseColumns,
+        factor: Box<dyn ActiveFactor>,
+        settings: Settings,
+    ) -> Self {
         let scaled = scaling.d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
         let n = problem.len();
-        Ok(Self {
-            factor: factor::choose(&m),
+        Self {
+            factor,
             active: Basis::new(n),
             role: vec![Role::Absent; n],
             z: vec![0.0; n],
@@ -176,7 +194,7 @@ impl Solver {
             problem,
             scaling,
             settings,
-        })
+        }
     }
 
     /// The problem `M = G' W G`, `q = -G' W h` of generators; see [`Problem::from_generators`].

@@ -1,6 +1,6 @@
 //! Dense `L D L'` of the active block, rows in the order in which they entered.
 
-use super::{ActiveFactor, LOST, RankOne, SingularBlock};
+use super::{ActiveFactor, FactorNumbers, LOST, RankOne, SingularBlock};
 use crate::matrix::SparseColumns;
 
 /// Unit lower triangular `L` by rows and diagonal `D`. Insertion appends a row, k^2 / 2 operations for k active rows;
@@ -26,6 +26,12 @@ impl DenseFactor {
 
     fn gather(&self, x: &[f64]) -> Vec<f64> {
         self.order.iter().map(|&i| x[i]).collect()
+    }
+
+    fn find_places(&mut self) {
+        for (place, &index) in self.order.iter().enumerate() {
+            self.place[index] = place;
+        }
     }
 
     /// `L y = b` in place.
@@ -65,7 +71,7 @@ impl DenseFactor {
 }
 
 impl ActiveFactor for DenseFactor {
-    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<(), SingularBlock> {
+    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<f64, SingularBlock> {
         let mut row = vec![0.0; self.order.len()];
         let (rows, values) = m.column(i);
         let mut diagonal = 0.0;
@@ -90,7 +96,7 @@ impl ActiveFactor for DenseFactor {
         self.order.push(i);
         self.l.push(row);
         self.d.push(pivot);
-        Ok(())
+        Ok(pivot)
     }
 
     fn remove(&mut self, i: usize) {
@@ -103,9 +109,7 @@ impl ActiveFactor for DenseFactor {
         let alpha = self.d.remove(p);
         let mut w: Vec<f64> = self.l[p..].iter_mut().map(|row| row.remove(p)).collect();
         self.rank_one(p, &mut w, alpha);
-        for (place, &index) in self.order.iter().enumerate().skip(p) {
-            self.place[index] = place;
-        }
+        self.find_places();
     }
 
     fn solve(&self, x: &mut [f64]) -> usize {
@@ -137,5 +141,29 @@ impl ActiveFactor for DenseFactor {
 
     fn entries(&self) -> usize {
         self.l.iter().map(Vec::len).sum::<usize>() + self.d.len()
+    }
+
+    fn renumbered(&self, n: usize, place: &[Option<usize>]) -> Option<Box<dyn ActiveFactor>> {
+        let order: Vec<usize> = self.order.iter().map(|&i| place[i]).collect::<Option<_>>()?;
+        let mut moved = Self { order, l: self.l.clone(), d: self.d.clone(), place: vec![OUT; n] };
+        moved.find_places();
+        Some(Box::new(moved))
+    }
+
+    fn numbers(&self) -> FactorNumbers {
+        FactorNumbers::Dense { order: self.order.clone(), l: self.l.clone(), d: self.d.clone() }
+    }
+
+    fn take_numbers(&mut self, numbers: &FactorNumbers) -> bool {
+        self.clear();
+        let FactorNumbers::Dense { order, l, d } = numbers else { return false };
+        let n = self.place.len();
+        let triangular = l.iter().enumerate().all(|(r, row)| row.len() == r);
+        if order.len() != d.len() || l.len() != d.len() || !triangular || order.iter().any(|&i| i >= n) {
+            return false;
+        }
+        (self.order, self.l, self.d) = (order.clone(), l.clone(), d.clone());
+        self.find_places();
+        true
     }
 }

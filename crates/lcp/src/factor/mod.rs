@@ -10,18 +10,19 @@ pub use dense::DenseFactor;
 pub use sparse::SparseFactor;
 
 use crate::matrix::SparseColumns;
+use serde::{Deserialize, Serialize};
 
 /// A factorisation of the principal block of a symmetric positive semidefinite matrix on an active set C.
 ///
 /// Rows are addressed by their index in the complete matrix, so callers never see an internal order. The
 /// matrix passed to [`ActiveFactor::insert`] must be the same one every time.
 pub trait ActiveFactor: std::fmt::Debug + Send + Sync {
-    /// Adds row `i` to C.
+    /// Adds row `i` to C and returns its pivot, the Schur complement of the rows before it.
     ///
     /// # Errors
     /// [`SingularBlock`] if the enlarged block would not be numerically positive definite. C is unchanged then, but
     /// the factor may have lost digits: build it again.
-    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<(), SingularBlock>;
+    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<f64, SingularBlock>;
 
     /// Removes row `i` from C; does nothing if it is not there.
     fn remove(&mut self, i: usize);
@@ -43,6 +44,39 @@ pub trait ActiveFactor: std::fmt::Debug + Send + Sync {
 
     /// Stored numbers: what memory and one solve are proportional to.
     fn entries(&self) -> usize;
+
+    /// The same factor for a matrix of `n` rows in which row i has become row `place[i]`; rows of C must be among those. None
+    /// if the factor rests on an analysis of the old matrix.
+    fn renumbered(&self, n: usize, place: &[Option<usize>]) -> Option<Box<dyn ActiveFactor>>;
+
+    /// Every number of the factor, to be kept outside of it.
+    fn numbers(&self) -> FactorNumbers;
+
+    /// Takes the numbers of a factor of the same kind, for the same matrix. False if they do not fit; C is empty then.
+    fn take_numbers(&mut self, numbers: &FactorNumbers) -> bool;
+}
+
+/// The numbers of a factor: with the matrix they make the same factor again, bit for bit.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum FactorNumbers {
+    /// Of a [`DenseFactor`].
+    Dense {
+        /// Matrix index of every factor row, in order of entry.
+        order: Vec<usize>,
+        /// Row r holds the r entries of `L` left of the diagonal.
+        l: Vec<Vec<f64>>,
+        /// The diagonal `D`.
+        d: Vec<f64>,
+    },
+    /// Of a [`SparseFactor`].
+    Sparse {
+        /// Entries of `L` on the static pattern.
+        l: Vec<f64>,
+        /// The diagonal `D`.
+        d: Vec<f64>,
+        /// Which positions are in C.
+        active: Vec<bool>,
+    },
 }
 
 /// The row depends, to working accuracy, on the rows already in the active block.

@@ -3,7 +3,7 @@
 //! Rows enter and leave along paths of the elimination tree: Davis and Hager, Row modifications of a sparse
 //! Cholesky factorization (2005). An inactive row is a row and column of the identity.
 
-use super::{ActiveFactor, LOST, RankOne, SingularBlock, symbolic::Symbolic};
+use super::{ActiveFactor, FactorNumbers, LOST, RankOne, SingularBlock, symbolic::Symbolic};
 use crate::matrix::SparseColumns;
 use std::sync::Arc;
 
@@ -76,7 +76,7 @@ impl SparseFactor {
 }
 
 impl ActiveFactor for SparseFactor {
-    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<(), SingularBlock> {
+    fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<f64, SingularBlock> {
         let symbolic = Arc::clone(&self.symbolic);
         let k = symbolic.position[i];
         let diagonal = self.scatter(m, i);
@@ -118,7 +118,7 @@ impl ActiveFactor for SparseFactor {
         self.rows_active += 1;
         let least = self.rank_one(symbolic.parent(k), -pivot);
         if least > LOST {
-            return Ok(());
+            return Ok(pivot);
         }
         self.remove(i);
         Err(SingularBlock { row: i, pivot: least * pivot })
@@ -183,5 +183,24 @@ impl ActiveFactor for SparseFactor {
 
     fn entries(&self) -> usize {
         self.l.len() + self.d.len()
+    }
+
+    fn renumbered(&self, _n: usize, _place: &[Option<usize>]) -> Option<Box<dyn ActiveFactor>> {
+        None
+    }
+
+    fn numbers(&self) -> FactorNumbers {
+        FactorNumbers::Sparse { l: self.l.clone(), d: self.d.clone(), active: self.active.clone() }
+    }
+
+    fn take_numbers(&mut self, numbers: &FactorNumbers) -> bool {
+        self.clear();
+        let FactorNumbers::Sparse { l, d, active } = numbers else { return false };
+        if (l.len(), d.len(), active.len()) != (self.l.len(), self.d.len(), self.d.len()) {
+            return false;
+        }
+        (self.l, self.d, self.active) = (l.clone(), d.clone(), active.clone());
+        self.rows_active = self.active.iter().filter(|&&active| active).count();
+        true
     }
 }

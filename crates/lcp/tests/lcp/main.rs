@@ -5,6 +5,7 @@ mod block;
 mod brute_force;
 mod contact;
 mod cycling;
+mod follow;
 mod lemke_reuse;
 mod masked;
 mod problems;
