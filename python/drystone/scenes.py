@@ -14,15 +14,23 @@ from drystone.scene import Scene
 
 __all__ = [
     "arch",
+    "col20",
+    "col50",
     "column",
     "diamond",
+    "drop84",
+    "fall7",
+    "falling_column",
     "five_blocks",
     "harmonic_stack",
     "inverted_triangle",
+    "pyr13",
     "pyramid",
     "random_stack",
     "slope",
+    "three_segments",
     "wall",
+    "wall84",
 ]
 
 
@@ -119,6 +127,50 @@ def wall(rows: int = 10, columns: int = 10, seed: int = 0, friction: float = 0.6
     places at random.
     """
     return _built("wall", rows=rows, columns=columns, seed=seed, friction=friction)
+
+
+def falling_column(friction: float = 0.2) -> Scene:
+    """Seven blocks of which the upper two fall one after the other, after Fig. 1.
+
+    A tall block leans over and comes to lie on the end of a plank; then the plank tips with it.
+    The five blocks below stand still all the time.
+    """
+    return _built("falling_column", friction=friction)
+
+
+def three_segments(friction: float = 0.3) -> Scene:
+    """Seven slabs like dominoes: two move, then five, then all, after Fig. 4."""
+    return _built("three_segments", friction=friction)
+
+
+def col20(friction: float = 0.5) -> Scene:
+    """A column of 20 unit squares on the ground, to be simulated."""
+    return _built("col20", friction=friction)
+
+
+def col50(friction: float = 0.5) -> Scene:
+    """A column of 50 unit squares on the ground, to be simulated."""
+    return _built("col50", friction=friction)
+
+
+def pyr13(friction: float = 0.5) -> Scene:
+    """The pyramid of 13 rows with friction, to be simulated."""
+    return _built("pyr13", friction=friction)
+
+
+def fall7(friction: float = 0.5) -> Scene:
+    """Five blocks that stand still while two squares topple off them, to be simulated."""
+    return _built("fall7", friction=friction)
+
+
+def wall84(seed: int = 1, friction: float = 0.5) -> Scene:
+    """A wall of 12 courses of 7 bricks of random widths, to be simulated."""
+    return _built("wall84", seed=seed, friction=friction)
+
+
+def drop84(seed: int = 1, friction: float = 0.5) -> Scene:
+    """84 random boxes dropped on the ground, to be simulated."""
+    return _built("drop84", seed=seed, friction=friction)
 
 
 def _built(name: str, **parameters: Any) -> Scene:

@@ -182,6 +182,5 @@ fn severity(assembly: &Assembly, block: usize, acceleration: &[f64; 3]) -> f64 {
     let [gx, gy] = assembly.gravity();
     let [ax, ay, alpha] = *acceleration;
     let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-    let radius = assembly.body(block).polygon.vertices().iter().fold(0.0_f64, |radius, v| radius.max(v.length()));
-    ax.hypot(ay).max(alpha.abs() * radius) / gravity
+    ax.hypot(ay).max(alpha.abs() * assembly.body(block).polygon.radius()) / gravity
 }

@@ -3,7 +3,7 @@
 //! The data's way, and the reading order:
 //!
 //! ```text
-//! scene -> geometry -> contact -> formulate -> drystone_lcp -> check | plan
+//! scene -> geometry -> contact -> formulate -> drystone_lcp -> check | plan | simulate
 //! ```
 //!
 //! - [`scene`]: gravity, friction and blocks, each checked when it is added. The built-in ones are
@@ -12,6 +12,7 @@
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
 //! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
 //! - [`mod@check`]: does it stand? - [`structure`]: and now, with this block more or less? - [`mod@plan`]: in which order does it come apart without falling?
+//! - [`simulate`]: how does it move?
 //!
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
 
@@ -24,6 +25,7 @@ pub mod io;
 pub mod plan;
 pub mod scene;
 pub mod scenes;
+pub mod simulate;
 pub mod structure;
 mod suggest;
 

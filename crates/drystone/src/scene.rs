@@ -134,6 +134,17 @@ impl Scene {
         self.push(name, polygon, None, Pose { position, ..frame }, options)
     }
 
+    /// Moves a block.
+    pub(crate) fn set_pose(&mut self, index: usize, pose: Pose) {
+        self.bodies[index].pose = pose;
+    }
+
+    /// Takes a block out; those after it move up by one.
+    pub(crate) fn remove(&mut self, index: usize) {
+        self.bodies.remove(index);
+        self.index = self.bodies.iter().enumerate().map(|(k, body)| (body.name.clone(), k)).collect();
+    }
+
     fn push(
         &mut self,
         name: String,

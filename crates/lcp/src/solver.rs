@@ -231,6 +231,11 @@ impl Solver {
         self.z[i] * self.scaling.d[i]
     }
 
+    /// Number of active rows: those in the factor.
+    pub fn active_rows(&self) -> usize {
+        self.active.members().len()
+    }
+
     /// Takes every row out. `q` stays, and work counts go on.
     pub fn clear(&mut self) {
         self.factor.clear();

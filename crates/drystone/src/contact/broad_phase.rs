@@ -11,14 +11,19 @@ use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
 /// pairs, so that no touching pair is missed. Work: n log n for blocks of like size.
 pub(super) fn candidate_pairs(scene: &Scene) -> Vec<[usize; 2]> {
     let bodies = scene.bodies();
-    let boxes: Vec<Aabb> = bodies.iter().map(|body| bounding_box(body).loosened(tolerance_of(scene, body))).collect();
+    pairs_within(bodies, |i| tolerance_of(scene, &bodies[i]))
+}
+
+/// Pairs whose boxes meet when box i is loosened by `reach(i)` metres, in the same order.
+pub(super) fn pairs_within(bodies: &[Body], reach: impl Fn(usize) -> f64) -> Vec<[usize; 2]> {
+    let boxes: Vec<Aabb> = bodies.iter().enumerate().map(|(i, body)| bounding_box(body).loosened(reach(i))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
     let mut pairs = Vec::new();
-    for (i, reach) in boxes.iter().enumerate() {
+    for (i, own) in boxes.iter().enumerate() {
         if bodies[i].fixed {
             continue;
         }
-        for j in tree.intersect_aabb(reach).map(|leaf| leaf as usize) {
+        for j in tree.intersect_aabb(own).map(|leaf| leaf as usize) {
             // A movable block meets a fixed one once, from its own side; two movable blocks from
             // the lower's side.
             if j != i && (bodies[j].fixed || i < j) {

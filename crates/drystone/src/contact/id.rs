@@ -1,10 +1,11 @@
 //! Identities of contacts, stable across sub-assemblies.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Names a contact by the two blocks and the features that meet. It depends on this pair alone,
 /// so a contact keeps its identity in every sub-assembly that holds both blocks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct ContactId {
     /// Indices of the two blocks, the lower first.
     pub bodies: [usize; 2],
@@ -14,7 +15,7 @@ pub struct ContactId {
 
 /// What meets at a contact point. Face k runs from vertex k to the next one, counter-clockwise;
 /// "a" is the block with the lower index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Feature {
     /// One end of the segment that two faces share.
     Faces {

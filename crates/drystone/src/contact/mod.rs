@@ -10,6 +10,7 @@
 //! contacts of two blocks depend on these two alone. [`Scene::with_contact_tolerance`] sets one
 //! value for all instead, for scenes whose coordinates were rounded.
 
+pub mod approach;
 mod broad_phase;
 mod id;
 mod narrow_phase;
@@ -98,7 +99,7 @@ pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
 }
 
 /// The contact tolerance of a pair, metres.
-fn pair_tolerance(scene: &Scene, a: &Body, b: &Body) -> f64 {
+pub(crate) fn pair_tolerance(scene: &Scene, a: &Body, b: &Body) -> f64 {
     tolerance_of(scene, a).min(tolerance_of(scene, b))
 }
 

@@ -42,9 +42,10 @@ pub(super) struct TouchPoint {
 
 /// A block's corners turned into world axes but still relative to its centroid (so that nothing
 /// is lost far from the world's origin), with the outward unit normal of each face.
+#[derive(Debug, Clone)]
 pub(super) struct Outline {
-    vertices: Vec<Vector>,
-    normals: Vec<Vector>,
+    pub vertices: Vec<Vector>,
+    pub normals: Vec<Vector>,
 }
 
 impl Outline {
@@ -57,7 +58,7 @@ impl Outline {
         Self { vertices, normals }
     }
 
-    fn next(&self, k: usize) -> usize {
+    pub fn next(&self, k: usize) -> usize {
         (k + 1) % self.vertices.len()
     }
 }
@@ -84,7 +85,7 @@ pub(super) fn touch(a: &Outline, b: &Outline, offset: Vector, tolerance: f64) ->
 
 /// The face of `reference` furthest from all of `other`, and that distance (negative: overlap
 /// along this normal). Of equal faces the first.
-fn greatest_separation(reference: &Outline, other: &Outline, offset: Vector) -> (usize, f64) {
+pub(super) fn greatest_separation(reference: &Outline, other: &Outline, offset: Vector) -> (usize, f64) {
     let mut best = (0, f64::NEG_INFINITY);
     for (face, (corner, normal)) in reference.vertices.iter().zip(&reference.normals).enumerate() {
         let shift = offset - *corner;
@@ -207,7 +208,7 @@ impl Span {
 }
 
 /// The face of `outline` whose normal looks most against `direction`. Of equal faces the first.
-fn most_opposed(outline: &Outline, direction: Vector) -> usize {
+pub(super) fn most_opposed(outline: &Outline, direction: Vector) -> usize {
     let mut best = (0, f64::INFINITY);
     for (face, normal) in outline.normals.iter().enumerate() {
         let alignment = normal.dot(direction);

@@ -24,11 +24,9 @@ pub struct Generator {
 
 /// The edges of a contact's friction cone: the normal alone without friction, else the two directions at the
 /// angle of friction on either side of it.
-fn cone_edges(contact: &Contact) -> Vec<[f64; 2]> {
-    let [nx, ny] = contact.normal;
-    let mu = contact.friction;
+pub(crate) fn cone_edges([nx, ny]: [f64; 2], mu: f64) -> Vec<[f64; 2]> {
     if mu == 0.0 {
-        return vec![contact.normal];
+        return vec![[nx, ny]];
     }
     let length = mu.hypot(1.0);
     [mu, -mu].map(|side| [(nx - side * ny) / length, (ny + side * nx) / length]).to_vec()
@@ -44,7 +42,10 @@ pub(super) struct Bodies<'a, F: Fn(usize) -> Option<usize>> {
 impl<F: Fn(usize) -> Option<usize>> Bodies<'_, F> {
     /// The generators of one contact.
     pub fn generators(&self, index: usize, contact: &Contact) -> Vec<Generator> {
-        cone_edges(contact).into_iter().map(|direction| self.generator(index, contact, direction)).collect()
+        cone_edges(contact.normal, contact.friction)
+            .into_iter()
+            .map(|direction| self.generator(index, contact, direction))
+            .collect()
     }
 
     /// The axis of a contact's cone, where that is not its only generator. It adds no force that the edges do not have,

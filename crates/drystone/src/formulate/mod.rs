@@ -16,4 +16,5 @@ mod generator;
 
 pub use assembly::{Assembly, ContactForce};
 pub use block_set::BlockSet;
+pub(crate) use generator::cone_edges;
 pub use generator::{Generator, Wrench};

@@ -116,6 +116,11 @@ impl Polygon {
         self.second_moment
     }
 
+    /// Distance of the furthest corner from the centroid, metres.
+    pub fn radius(&self) -> f64 {
+        self.vertices.iter().fold(0.0, |radius, v| v.length().max(radius))
+    }
+
     /// The least distance between two parallel lines that hold the polygon between them, metres.
     pub fn width(&self) -> f64 {
         self.width

@@ -43,6 +43,19 @@ impl Builder {
         Ok(())
     }
 
+    /// A movable rectangle, turned, with a name of its own.
+    pub fn leaning_block(
+        &mut self,
+        name: &str,
+        center: [f64; 2],
+        size: [f64; 2],
+        angle: f64,
+    ) -> Result<(), SceneError> {
+        let options = BodyOptions { name: Some(name.to_owned()), ..BodyOptions::default() };
+        self.scene.add_box(center, size, angle, options)?;
+        Ok(())
+    }
+
     /// A movable polygon by its corners in the world.
     pub fn polygon(&mut self, vertices: &[[f64; 2]]) -> Result<(), SceneError> {
         let options = self.next_number();

@@ -10,6 +10,7 @@ mod arch;
 mod builder;
 mod entry;
 mod five_blocks;
+mod in_motion;
 mod overhang;
 mod paper_stacks;
 mod random_stack;
@@ -19,6 +20,7 @@ mod wall;
 pub use arch::arch;
 pub use entry::{Parameter, ParameterKind, SceneEntry};
 pub use five_blocks::five_blocks;
+pub use in_motion::{col20, col50, drop84, fall7, falling_column, pyr13, three_segments, wall84};
 pub use overhang::{diamond, harmonic_stack, inverted_triangle};
 pub use paper_stacks::{column, pyramid};
 pub use random_stack::{random_stack, random_stack_where};
@@ -35,15 +37,23 @@ use std::collections::BTreeMap;
 pub fn catalogue() -> &'static [SceneEntry] {
     &[
         arch::ENTRY,
+        in_motion::COL20,
+        in_motion::COL50,
         paper_stacks::COLUMN,
         overhang::DIAMOND,
+        in_motion::DROP84,
+        in_motion::FALL7,
+        in_motion::FALLING_COLUMN,
         five_blocks::ENTRY,
         overhang::HARMONIC_STACK,
         overhang::INVERTED_TRIANGLE,
+        in_motion::PYR13,
         paper_stacks::PYRAMID,
         random_stack::ENTRY,
         slope::ENTRY,
+        in_motion::THREE_SEGMENTS,
         wall::ENTRY,
+        in_motion::WALL84,
     ]
 }
 

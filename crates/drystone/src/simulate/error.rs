@@ -1,0 +1,90 @@
+//! What can be wrong with what a simulation is given, and how a step can fail.
+
+use crate::error::SceneError;
+use thiserror::Error;
+
+/// Bad input to a simulation.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// A time step that is not above zero.
+    #[error("dt is {value}: a time step is a finite number of seconds greater than zero")]
+    TimeStep {
+        /// The value.
+        value: f64,
+    },
+    /// A coefficient of restitution outside [0, 1].
+    #[error("restitution is {value}: give a number from 0 (no rebound) to 1")]
+    Restitution {
+        /// The value.
+        value: f64,
+    },
+    /// A NaN or an infinity in a force, an impulse or a velocity.
+    #[error("block \"{body}\": {quantity} is {value}: give finite numbers")]
+    NotFinite {
+        /// The block.
+        body: String,
+        /// What was given.
+        quantity: &'static str,
+        /// The value.
+        value: f64,
+    },
+    /// A velocity or a push for a block that never moves.
+    #[error("block \"{body}\" is fixed: it takes no {quantity}")]
+    Fixed {
+        /// The block.
+        body: String,
+        /// What was given.
+        quantity: &'static str,
+    },
+    /// Bytes that are no snapshot of a world, or a damaged one.
+    #[error("this is no snapshot of a world: {reason}")]
+    Snapshot {
+        /// What is wrong.
+        reason: String,
+    },
+    /// The scene, or a block to be added.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+/// Why a step could not be made. The world is as it was before the step.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// The complementarity problem of the step was not solved, from scratch neither.
+    #[error("the contact problem was not solved: {status}")]
+    Unsolved {
+        /// The solver's status.
+        status: &'static str,
+    },
+    /// Two blocks would pass through each other at a corner, further in one step than half the narrower one's width.
+    #[error(
+        "blocks \"{a}\" and \"{b}\" would pass through each other within one step: take a time step of {dt:.3e} s or less"
+    )]
+    TooFast {
+        /// Name of the one.
+        a: String,
+        /// Name of the other.
+        b: String,
+        /// A time step in which they move by less than that.
+        dt: f64,
+    },
+    /// Positions or velocities have left the range of numbers.
+    #[error("block \"{body}\": its motion is not finite any more")]
+    NotFinite {
+        /// The block.
+        body: String,
+    },
+}
+
+impl StepFailure {
+    /// In one word, as users of other languages see it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Unsolved { .. } => "unsolved",
+            Self::TooFast { .. } => "too_fast",
+            Self::NotFinite { .. } => "not_finite",
+        }
+    }
+}

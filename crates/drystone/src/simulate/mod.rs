@@ -1,0 +1,37 @@
+//! How does it move? Planar simulation with exact contact, and with computation reuse.
+//!
+//! [`World`] holds bodies in motion and makes steps; `step.rs` reads as the paper's SIMULATE:
+//!
+//! ```text
+//! contacts -> formulate -> solve -> find motionless -> integrate
+//! ```
+//!
+//! - contacts: [`crate::contact::approach`], what touches or may touch within the step;
+//! - formulate: `velocity_level.rs`, one complementarity problem of impulses and velocities;
+//! - solve: `solve.rs` solves it until `friction.rs` finds Coulomb's law kept; `reuse.rs` says what is taken over;
+//! - find motionless: `motionless.rs`, whose blocks keep their place bit for bit;
+//! - integrate: `integrate.rs`, and `project.rs` where blocks came to overlap.
+//!
+//! [`run`] makes many steps and records them. Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006), section
+//! IV; the theory is in docs/theory/velocity-level.md.
+
+mod error;
+mod friction;
+mod integrate;
+mod motionless;
+mod project;
+mod reuse;
+mod run;
+mod snapshot;
+mod solve;
+mod step;
+mod velocity_level;
+mod world;
+
+pub use error::{SimulationError, StepFailure};
+pub use friction::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
+pub use reuse::Reuse;
+pub use run::{Ending, Run, run};
+pub use step::StepRecord;
+pub use velocity_level::Velocity;
+pub use world::{ContactImpulse, Options, World};

@@ -1,0 +1,66 @@
+//! Many steps, recorded.
+
+use super::{error::StepFailure, step::StepRecord, velocity_level::Velocity, world::World};
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ending {
+    /// All steps were made.
+    Finished,
+    /// Somebody stopped it; the steps before are there.
+    Interrupted,
+    /// A step could not be made; those before it are there.
+    Failed(StepFailure),
+}
+
+impl Ending {
+    /// In one word, as users of other languages see it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Interrupted => "interrupted",
+            Self::Failed(failure) => failure.name(),
+        }
+    }
+}
+
+/// What a run recorded. Places and velocities have one entry more than there are steps: the first is the beginning.
+#[derive(Debug, Clone)]
+pub struct Run {
+    /// How it ended.
+    pub ending: Ending,
+    /// Centroid (m, m) and angle (rad) of every body.
+    pub poses: Vec<Vec<[f64; 3]>>,
+    /// Velocity of every body.
+    pub velocities: Vec<Vec<Velocity>>,
+    /// What each step did.
+    pub records: Vec<StepRecord>,
+}
+
+/// Makes steps and records them. `go_on` is asked before every step, with the number of steps made.
+pub fn run(world: &mut World, steps: usize, mut go_on: impl FnMut(usize) -> bool) -> Run {
+    let mut run = Run { ending: Ending::Finished, poses: Vec::new(), velocities: Vec::new(), records: Vec::new() };
+    run.take_down(world);
+    for made in 0..steps {
+        if !go_on(made) {
+            run.ending = Ending::Interrupted;
+            break;
+        }
+        match world.step() {
+            Ok(record) => run.records.push(record),
+            Err(failure) => {
+                run.ending = Ending::Failed(failure);
+                break;
+            }
+        }
+        run.take_down(world);
+    }
+    run
+}
+
+impl Run {
+    fn take_down(&mut self, world: &World) {
+        self.poses.push(world.poses().collect());
+        self.velocities.push(world.velocities().to_vec());
+    }
+}

@@ -1,0 +1,173 @@
+//! Solving a step: the contact problem again and again, until sliding contacts obey Coulomb's law.
+
+use super::{
+    error::StepFailure,
+    friction::{FRICTION_ACCEPTED, FixedPoint, MOST_SOLVES, acceptable},
+    reuse::Situation,
+    velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
+    world::World,
+};
+use drystone_lcp::{LcpError, Status};
+use std::time::{Duration, Instant};
+
+/// A solved step.
+pub(super) struct Motion {
+    pub velocities: Vec<Velocity>,
+    /// Sliding speed at every approach, m/s.
+    pub sliding: Vec<f64>,
+    /// Impulse at every approach along the normal and the tangent, N s.
+    pub impulses: Vec<[f64; 2]>,
+    /// Largest error of Coulomb's law, m/s.
+    pub friction_error: f64,
+    pub residual: f64,
+    pub solves: usize,
+    pub rows_reused: usize,
+    pub time: Duration,
+}
+
+/// One solve for assumed sliding speeds.
+struct Trial {
+    velocities: Vec<Velocity>,
+    sliding: Vec<f64>,
+    error: f64,
+}
+
+/// What stays the same in all solves of a step.
+struct Given<'a> {
+    problem: &'a VelocityLevel,
+    free: &'a [Velocity],
+    offsets: &'a [f64],
+}
+
+impl World {
+    /// Solves by the route of choice; if that fails, from scratch with the solver's own tolerances.
+    pub(super) fn solve(
+        &mut self,
+        problem: &VelocityLevel,
+        free: &[Velocity],
+        offsets: &[f64],
+    ) -> Result<Motion, StepFailure> {
+        let given = Given { problem, free, offsets };
+        let answer = self.solve_coulomb(&given).or_else(|_| {
+            self.route.restart();
+            self.before = None;
+            self.solve_coulomb(&given)
+        });
+        answer.map_err(|status| {
+            self.forget();
+            StepFailure::Unsolved { status: status.name() }
+        })
+    }
+
+    /// Takes over what can be, then looks for the fixed point of the sliding speeds.
+    fn solve_coulomb(&mut self, given: &Given<'_>) -> Result<Motion, Status> {
+        let mut time = Duration::ZERO;
+        let mut assumed = self.carried_sliding(given.problem);
+        let rows_reused = self.take_over(given, &assumed, &mut time)?;
+        let speed = given.free.iter().fold(0.0, |fastest, [x, y, _]| x.hypot(*y).max(fastest));
+        let mut point = FixedPoint::new();
+        let mut best = (f64::INFINITY, Vec::new());
+        let mut solves = 0;
+        loop {
+            let trial = self.try_sliding(given, &assumed, &mut time)?;
+            solves += 1;
+            if acceptable(trial.error, solves, speed) || solves > MOST_SOLVES {
+                return Ok(self.motion(given.problem, trial, solves, rows_reused, time));
+            }
+            if trial.error < best.0 {
+                best = (trial.error, assumed.clone());
+            }
+            assumed = if solves == MOST_SOLVES {
+                std::mem::take(&mut best.1)
+            } else {
+                point.next(&assumed, &trial.sliding, trial.error)
+            };
+        }
+    }
+
+    /// Sliding speeds of the step before at the contacts that are still there; speeds within the tolerance are none.
+    fn carried_sliding(&self, problem: &VelocityLevel) -> Vec<f64> {
+        let Some(before) = &self.before else { return vec![0.0; problem.approaches().len()] };
+        let speeds = problem.matches(before).map(|(_, old)| old.map_or(0.0, |old| self.sliding[old]));
+        speeds.map(|s| if s > FRICTION_ACCEPTED { s } else { 0.0 }).collect()
+    }
+
+    /// Hands the matrix to the route unless it has it. Returns the rows that come with their factor.
+    fn take_over(&mut self, given: &Given<'_>, assumed: &[f64], time: &mut Duration) -> Result<usize, Status> {
+        let problem = given.problem;
+        let situation = Situation { problem, before: self.before.as_ref(), motionless: &self.motionless };
+        if self.route.has_matrix(&situation) {
+            return Ok(self.route.solver().active_rows());
+        }
+        let q = problem.q(given.free, given.offsets, assumed);
+        let matrix = problem.problem(&self.inverse_mass, q).map_err(trouble)?;
+        let begun = Instant::now();
+        let rows_reused = self.route.begin(&situation, matrix).map_err(trouble);
+        *time += begun.elapsed();
+        rows_reused
+    }
+
+    fn try_sliding(&mut self, given: &Given<'_>, assumed: &[f64], time: &mut Duration) -> Result<Trial, Status> {
+        let q = given.problem.q(given.free, given.offsets, assumed);
+        let begun = Instant::now();
+        let status = self.route.solve(&q);
+        *time += begun.elapsed();
+        match status.map_err(trouble)? {
+            Status::Solved => {}
+            status => return Err(status),
+        }
+        let solver = self.route.solver();
+        let velocities = given.problem.velocities(given.free, &self.inverse_mass, |row| solver.z(row));
+        let (sliding, error) = judge(given, &velocities, assumed, |row| solver.z(row));
+        Ok(Trial { velocities, sliding, error })
+    }
+
+    fn motion(
+        &self,
+        problem: &VelocityLevel,
+        trial: Trial,
+        solves: usize,
+        rows_reused: usize,
+        time: Duration,
+    ) -> Motion {
+        let solver = self.route.solver();
+        let impulse = |k: usize| {
+            let ([px, py], [nx, ny]) = (problem.impulse(k, |row| solver.z(row)), problem.approaches()[k].normal);
+            [px * nx + py * ny, py * nx - px * ny]
+        };
+        let Trial { velocities, sliding, error } = trial;
+        Motion {
+            velocities,
+            sliding,
+            impulses: (0..problem.approaches().len()).map(impulse).collect(),
+            friction_error: error,
+            residual: solver.residual(),
+            solves,
+            rows_reused,
+            time,
+        }
+    }
+}
+
+/// The matrix of a step is symmetric and semidefinite by its making; where it does not look so, accuracy is lost.
+fn trouble(_: LcpError) -> Status {
+    Status::NumericalTrouble
+}
+
+/// The sliding speeds found, and the largest error of Coulomb's law: where a contact bears, the speed at which it parts;
+/// where it does not, the speed at which it closes beyond its gap.
+fn judge(given: &Given<'_>, velocities: &[Velocity], assumed: &[f64], p: impl Fn(usize) -> f64) -> (Vec<f64>, f64) {
+    let mut worst = 0.0_f64;
+    let mut sliding = Vec::with_capacity(assumed.len());
+    for (k, approach) in given.problem.approaches().iter().enumerate() {
+        let [normal, tangential] = normal_and_tangential(approach, velocities);
+        let bears = given.problem.rows(k).any(|row| p(row) > 0.0);
+        worst = worst.max(match approach.friction {
+            0.0 => 0.0,
+            friction if bears => friction * (tangential.abs() - assumed[k]).abs(),
+            _ => -(normal + given.offsets[k]),
+        });
+        sliding.push(tangential.abs());
+    }
+    (sliding, worst)
+}

@@ -1,0 +1,191 @@
+//! One time step: contacts, formulate, solve, find motionless, integrate.
+
+use super::{
+    error::StepFailure,
+    integrate::advance,
+    motionless::motionless_bodies,
+    project::{ALLOWED, ROUNDS, shift, way_out},
+    reuse::Reuse,
+    solve::Motion,
+    velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
+    world::World,
+};
+use crate::contact::{approach::Approach, pair_tolerance};
+use drystone_lcp::Counts;
+use std::time::{Duration, Instant};
+
+/// What one step did.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepRecord {
+    /// Whether each body kept its place; fixed ones do.
+    pub motionless: Vec<bool>,
+    /// Pivots of all solves of the step; major and minor cycles.
+    pub counts: Counts,
+    /// Solves: the first one, and those that make Coulomb's law exact.
+    pub solves: usize,
+    /// Rows of the step's problem.
+    pub rows: usize,
+    /// Active rows that came from the step before with their part of the factor.
+    pub rows_reused: usize,
+    /// Wall time of the solves, with the analysis and the factor of the matrix, without making it.
+    pub solve_time: Duration,
+    /// Wall time of the whole step.
+    pub time: Duration,
+    /// Residual of the last solve, in the problem's own scale.
+    pub residual: f64,
+    /// Largest speed, m/s, at which a contact that bears parts or closes against Coulomb's law: what is left of the fixed
+    /// point's iteration, at most [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED), relative above 1 m/s, unless it did not converge.
+    pub friction_error: f64,
+    /// Deepest overlap at the end of the step, metres.
+    pub penetration: f64,
+    /// Times overlaps were taken back; their pivots are among the step's.
+    pub projections: usize,
+}
+
+/// Impacts slower than what gravity gives in this many steps do not rebound: they are contacts that rest.
+const RESTING_STEPS: f64 = 4.0;
+
+impl World {
+    /// Makes one step.
+    ///
+    /// # Errors
+    /// [`StepFailure`]; the bodies are as they were before then.
+    pub fn step(&mut self) -> Result<StepRecord, StepFailure> {
+        let begun = Instant::now();
+        let spent = self.route.counts();
+        let free = self.free_velocities();
+
+        let problem = self.contacts(&free)?;
+        let offsets = self.formulate(&problem, &free);
+        let motion = self.solve(&problem, &free, &offsets)?;
+        let motionless = self.find_motionless(&motion)?;
+        let projected = self.integrate(motion.velocities, motionless);
+
+        self.impulses = motion.impulses;
+        self.sliding = self.sliding_of(&problem, motion.sliding);
+        self.steps += 1;
+        let record = StepRecord {
+            motionless: self.motionless.clone(),
+            counts: self.route.counts() - spent + projected.counts,
+            solves: motion.solves,
+            rows: problem.len(),
+            rows_reused: motion.rows_reused,
+            solve_time: motion.time,
+            time: begun.elapsed(),
+            residual: motion.residual,
+            friction_error: motion.friction_error,
+            penetration: self.finder.penetration(),
+            projections: projected.rounds,
+        };
+        self.before = Some(problem);
+        Ok(record)
+    }
+
+    /// `v* = v + h M^-1 F`: what the velocities would be without contacts.
+    fn free_velocities(&self) -> Vec<Velocity> {
+        let [gx, gy] = self.scene.gravity();
+        let free = |i: usize| {
+            let (v, inverse, f) = (self.velocities[i], self.inverse_mass[i], self.forces[i]);
+            let fall = if inverse == [0.0; 3] { [0.0; 3] } else { [gx, gy, 0.0] };
+            [0, 1, 2].map(|axis| v[axis] + self.options.dt * (fall[axis] + inverse[axis] * f[axis]))
+        };
+        (0..self.velocities.len()).map(free).collect()
+    }
+
+    /// Every approach that may close within the step.
+    fn contacts(&mut self, free: &[Velocity]) -> Result<VelocityLevel, StepFailure> {
+        if self.options.reuse != Reuse::Full {
+            self.finder.clear();
+        }
+        self.find_approaches(free);
+        if let Some([a, b]) = self.finder.crossing() {
+            return Err(self.too_fast(a, b, free));
+        }
+        Ok(VelocityLevel::new(self.finder.approaches().copied().collect()))
+    }
+
+    fn find_approaches(&mut self, free: &[Velocity]) {
+        let travel: Vec<[f64; 3]> = free.iter().map(|v| v.map(|v| self.options.dt * v)).collect();
+        self.finder.find(&self.scene, &travel);
+    }
+
+    fn too_fast(&self, a: usize, b: usize, free: &[Velocity]) -> StepFailure {
+        let bodies = self.scene.bodies();
+        let speed = (free[b][0] - free[a][0]).hypot(free[b][1] - free[a][1]);
+        let width = bodies[a].polygon.width().min(bodies[b].polygon.width());
+        let name = |i: usize| bodies[i].name.clone();
+        StepFailure::TooFast { a: name(a), b: name(b), dt: 0.5 * width / speed }
+    }
+
+    /// The offset c of every approach, m/s: what may be closed of a gap within the step, and the rebound of an impact.
+    fn formulate(&self, problem: &VelocityLevel, free: &[Velocity]) -> Vec<f64> {
+        let (dt, restitution) = (self.options.dt, self.options.restitution);
+        let [gx, gy] = self.scene.gravity();
+        let resting = RESTING_STEPS * dt * gx.hypot(gy);
+        let offset = |approach: &Approach| {
+            let gap = approach.gap.max(0.0);
+            let [arriving, _] = normal_and_tangential(approach, &self.velocities);
+            let [free, _] = normal_and_tangential(approach, free);
+            let collides = restitution > 0.0 && arriving < -resting && gap + dt * free <= 0.0;
+            if collides { restitution * arriving } else { gap / dt }
+        };
+        problem.approaches().iter().map(offset).collect()
+    }
+
+    /// The motionless set of the step.
+    fn find_motionless(&self, motion: &Motion) -> Result<Vec<bool>, StepFailure> {
+        let wild = motion.velocities.iter().position(|v| !v.iter().all(|v| v.is_finite()));
+        if let Some(i) = wild {
+            return Err(StepFailure::NotFinite { body: self.scene.bodies()[i].name.clone() });
+        }
+        Ok(motionless_bodies(&self.scene, &motion.velocities, self.options.dt))
+    }
+
+    /// Moves what moves, and takes back what came to overlap.
+    fn integrate(&mut self, mut velocities: Vec<Velocity>, motionless: Vec<bool>) -> Projected {
+        velocities.iter_mut().zip(&motionless).filter(|(_, still)| **still).for_each(|(v, _)| *v = [0.0; 3]);
+        advance(&mut self.scene, &velocities, &motionless, self.options.dt);
+        (self.velocities, self.motionless) = (velocities, motionless);
+        self.forces.fill([0.0; 3]);
+        self.project()
+    }
+
+    /// The sliding speeds to begin the next step with: none between bodies that stand still.
+    fn sliding_of(&self, problem: &VelocityLevel, mut sliding: Vec<f64>) -> Vec<f64> {
+        for (approach, s) in problem.approaches().iter().zip(&mut sliding) {
+            if approach.id.bodies.iter().all(|&body| self.motionless[body]) {
+                *s = 0.0;
+            }
+        }
+        sliding
+    }
+
+    /// Takes overlaps back until none is deeper than allowed, or nothing helps. Finds the approaches of the next step.
+    fn project(&mut self) -> Projected {
+        let mut projected = Projected::default();
+        loop {
+            self.find_approaches(&self.free_velocities());
+            let deep = |([a, b], depth): ([usize; 2], f64)| {
+                let bodies = self.scene.bodies();
+                let held = self.motionless[a] && self.motionless[b];
+                !held && depth > ALLOWED * pair_tolerance(&self.scene, &bodies[a], &bodies[b])
+            };
+            if projected.rounds == ROUNDS || !self.finder.overlaps().any(deep) {
+                return projected;
+            }
+            let held = |(mass, still): (&[f64; 3], &bool)| if *still { [0.0; 3] } else { *mass };
+            let inverse_mass: Vec<_> = self.inverse_mass.iter().zip(&self.motionless).map(held).collect();
+            let free = |approach: &&Approach| approach.id.bodies.iter().any(|&body| inverse_mass[body] != [0.0; 3]);
+            let approaches: Vec<&Approach> = self.finder.approaches().filter(free).collect();
+            let Some(change) = way_out(&approaches, &inverse_mass, &mut projected.counts) else { return projected };
+            shift(&mut self.scene, &mut self.velocities, &change);
+            projected.rounds += 1;
+        }
+    }
+}
+
+#[derive(Debug, Default)]
+struct Projected {
+    rounds: usize,
+    counts: Counts,
+}
