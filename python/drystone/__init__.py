@@ -10,13 +10,23 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from drystone import lcp, scenes, viewer
-    from drystone._core import DrystoneError, LcpError, SceneError, StartError, __version__
+    from drystone._core import (
+        DrystoneError,
+        LcpError,
+        SceneError,
+        SimulationError,
+        StartError,
+        StepError,
+        __version__,
+    )
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.planning import Plan, TestRecord, plan
     from drystone.scene import Body, Contact, Scene
+    from drystone.simulation import Run, simulate
     from drystone.statics import StaticsError
     from drystone.structure import Structure
     from drystone.verdict import ContactForce, Verdict, check
+    from drystone.world import StepRecord, World
 
 __all__ = [
     "Body",
@@ -27,20 +37,26 @@ __all__ = [
     "LcpError",
     "ManyPlans",
     "Plan",
+    "Run",
     "Scene",
     "SceneError",
     "ScenePlan",
+    "SimulationError",
     "StartError",
     "StaticsError",
+    "StepError",
+    "StepRecord",
     "Structure",
     "TestRecord",
     "Verdict",
+    "World",
     "__version__",
     "check",
     "lcp",
     "plan",
     "plan_many",
     "scenes",
+    "simulate",
     "viewer",
 ]
 
@@ -54,18 +70,24 @@ _HOMES = {
     "LcpError": "drystone._core",
     "ManyPlans": "drystone.many",
     "Plan": "drystone.planning",
+    "Run": "drystone.simulation",
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
     "ScenePlan": "drystone.many",
+    "SimulationError": "drystone._core",
     "StartError": "drystone._core",
     "StaticsError": "drystone.statics",
     "Structure": "drystone.structure",
+    "StepError": "drystone._core",
+    "StepRecord": "drystone.world",
     "TestRecord": "drystone.planning",
     "Verdict": "drystone.verdict",
+    "World": "drystone.world",
     "__version__": "drystone._core",
     "check": "drystone.verdict",
     "plan": "drystone.planning",
     "plan_many": "drystone.many",
+    "simulate": "drystone.simulation",
 }
 
 

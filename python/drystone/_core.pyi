@@ -19,13 +19,18 @@ __all__ = [
     "Plan",
     "Recording",
     "Replay",
+    "Run",
     "Scene",
     "SceneError",
+    "SimulationError",
     "StartError",
+    "StepError",
+    "StepRecord",
     "Structure",
     "StructureForces",
     "TestRecord",
     "Verdict",
+    "World",
     "__version__",
     "catalogue",
     "check",
@@ -42,6 +47,8 @@ class DrystoneError(Exception): ...
 class SceneError(DrystoneError, ValueError): ...
 class LcpError(DrystoneError, ValueError): ...
 class StartError(LcpError): ...
+class SimulationError(DrystoneError, ValueError): ...
+class StepError(DrystoneError): ...
 
 @final
 class Scene:
@@ -240,6 +247,120 @@ class StructureForces:
     offsets: NDArray[np.int64]
     contact: NDArray[np.int64]
     force: NDArray[np.float64]
+
+@final
+class World:
+    def __new__(cls, scene: Scene, dt: float, reuse: str, restitution: float) -> World: ...
+    def step(self) -> StepRecord: ...
+    def run(
+        self,
+        steps: int,
+        forces: bool = False,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> Run:
+        """`progress` is called with (steps made, steps in all) a few times a second."""
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def dt(self) -> float: ...
+    @property
+    def reuse(self) -> str: ...
+    @property
+    def restitution(self) -> float: ...
+    @property
+    def steps(self) -> int: ...
+    @property
+    def energy(self) -> float: ...
+    @property
+    def poses(self) -> NDArray[np.float64]: ...
+    @property
+    def velocities(self) -> NDArray[np.float64]: ...
+    @property
+    def motionless(self) -> NDArray[np.bool_]: ...
+    def forces(self) -> list[ContactForce]: ...
+    def set_velocity(self, name: str, velocity: tuple[float, float, float]) -> None: ...
+    def apply_force(
+        self,
+        name: str,
+        force: tuple[float, float],
+        at: tuple[float, float] | None = None,
+        moment: float = 0.0,
+    ) -> None: ...
+    def apply_impulse(
+        self,
+        name: str,
+        impulse: tuple[float, float],
+        at: tuple[float, float] | None = None,
+        moment: float = 0.0,
+    ) -> None: ...
+    def add_box(
+        self,
+        center: tuple[float, float],
+        size: tuple[float, float],
+        angle: float,
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+    ) -> str: ...
+    def add_polygon(
+        self,
+        vertices: Sequence[tuple[float, float]],
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+    ) -> str: ...
+    def remove(self, name: str) -> None: ...
+    def snapshot(self) -> bytes: ...
+    @staticmethod
+    def restore(snapshot: bytes) -> World: ...
+    def state_hash(self) -> int: ...
+
+@final
+class StepRecord:
+    motionless: NDArray[np.bool_]
+    pivots: int
+    major_cycles: int
+    minor_cycles: int
+    solves: int
+    rows: int
+    rows_reused: int
+    solve_seconds: float
+    seconds: float
+    residual: float
+    friction_error: float
+    penetration: float
+    projections: int
+
+@final
+class Run:
+    """One entry a step; `poses` and `velocities` have one more, the beginning. With forces, those
+    of step k are the rows `force_starts[k]` to `force_starts[k + 1]` of the last three arrays."""
+
+    status: str
+    reason: str | None
+    poses: NDArray[np.float64]
+    velocities: NDArray[np.float64]
+    motionless: NDArray[np.bool_]
+    pivots: NDArray[np.int64]
+    major_cycles: NDArray[np.int64]
+    minor_cycles: NDArray[np.int64]
+    solves: NDArray[np.int64]
+    rows: NDArray[np.int64]
+    rows_reused: NDArray[np.int64]
+    projections: NDArray[np.int64]
+    solve_seconds: NDArray[np.float64]
+    step_seconds: NDArray[np.float64]
+    residual: NDArray[np.float64]
+    friction_error: NDArray[np.float64]
+    penetration: NDArray[np.float64]
+    force_starts: NDArray[np.int64]
+    force_bodies: NDArray[np.int64]
+    force_points: NDArray[np.float64]
+    forces: NDArray[np.float64]
 
 @final
 class LcpSolution:

@@ -1,4 +1,4 @@
-"""Progress bars for searches, on standard error, once they have lasted a second."""
+"""Progress bars for searches and runs, on standard error, once they have lasted a second."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ PATIENCE = 1.0
 
 
 class _Bar:
-    """A bar of blocks, with a few words behind it."""
+    """A bar of blocks, or of something else, with a few words behind it."""
 
     label = ""
+    unit = "blocks"
     hint = ""
 
     def __init__(self, label: str | None = None) -> None:
@@ -31,7 +32,7 @@ class _Bar:
         if self._bar is None:
             if time.monotonic() - self._begun < PATIENCE or not sys.stderr.isatty():
                 return
-            self._bar, self._task = _shown(self._label, total, self.hint)
+            self._bar, self._task = _shown(self._label, total, self.unit, self.hint)
         if self._task is not None:
             self._bar.update(self._task, completed=placed, more=more)
 
@@ -73,7 +74,24 @@ class ForcesProgress(_Bar):
         self._show(placed, total)
 
 
-def _shown(label: str, total: int, hint: str) -> tuple[Progress, TaskID]:
+class RunProgress(_Bar):
+    """Use as a context, and pass it to `simulate` as its `progress`.
+
+    >>> import drystone as ds
+    >>> with RunProgress() as progress:
+    ...     ds.simulate(ds.scenes.column(4), steps=10, progress=progress).steps
+    10
+    """
+
+    label = "simulating"
+    unit = "steps"
+    hint = "Ctrl-C keeps what is done"
+
+    def __call__(self, made: int, total: int) -> None:
+        self._show(made, total)
+
+
+def _shown(label: str, total: int, unit: str, hint: str) -> tuple[Progress, TaskID]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -81,7 +99,7 @@ def _shown(label: str, total: int, hint: str) -> tuple[Progress, TaskID]:
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn("blocks{task.fields[more]}"),
+        TextColumn(unit + "{task.fields[more]}"),
         TimeElapsedColumn(),
         TextColumn(f"[dim]{hint}"),
         console=Console(stderr=True),

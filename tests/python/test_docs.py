@@ -70,5 +70,5 @@ def test_every_public_name_is_there_and_documented() -> None:
         value = getattr(ds, name)
         assert name in dir(ds)
         assert isinstance(value, str) or value.__doc__
-    with pytest.raises(AttributeError, match="simulate"):
-        ds.simulate  # noqa: B018
+    with pytest.raises(AttributeError, match="teleport"):
+        ds.teleport  # noqa: B018

@@ -105,7 +105,7 @@ fn a_way_through_a_corner_is_refused_and_what_was_done_is_kept() {
     scene.add_box([-60.0, -60.0], [1.0, 1.0], 0.0, named("block")).unwrap();
     let mut world = World::new(scene, Options::default()).unwrap();
     world.set_velocity("block", [1e4, 1e4, 0.0]).unwrap();
-    let recorded = run(&mut world, 10, |_| true);
+    let recorded = run(&mut world, 10, true, |_| true);
     let Ending::Failed(StepFailure::TooFast { dt, .. }) = recorded.ending else { panic!("{:?}", recorded.ending) };
     assert!(dt > 0.0 && dt < 1.0 / 240.0);
     assert_eq!(recorded.poses.len(), recorded.records.len() + 1);
@@ -117,7 +117,7 @@ fn a_way_through_a_corner_is_refused_and_what_was_done_is_kept() {
 #[test]
 fn a_run_can_be_stopped() {
     let mut world = World::new(scenes::column(5, 0.5).unwrap(), Options::default()).unwrap();
-    let recorded = run(&mut world, 100, |made| made < 7);
+    let recorded = run(&mut world, 100, false, |made| made < 7);
     assert_eq!((recorded.ending.name(), recorded.records.len(), recorded.poses.len()), ("interrupted", 7, 8));
 }
 

@@ -1,6 +1,10 @@
 //! Typed errors in Python: one map from each Rust error to its exception.
 
-use drystone::{SceneError, plan::PlanError};
+use drystone::{
+    SceneError,
+    plan::PlanError,
+    simulate::{SimulationError, StepFailure},
+};
 use drystone_lcp::LcpError;
 use pyo3::{
     exceptions::{PyException, PyValueError},
@@ -14,6 +18,8 @@ struct Exceptions {
     scene: Py<PyType>,
     lcp: Py<PyType>,
     start: Py<PyType>,
+    simulation: Py<PyType>,
+    step: Py<PyType>,
 }
 
 static EXCEPTIONS: PyOnceLock<Exceptions> = PyOnceLock::new();
@@ -32,7 +38,9 @@ fn exceptions(py: Python<'_>) -> PyResult<&'static Exceptions> {
         let scene = make("SceneError", "A scene that is not valid; says what to mend.", &both)?;
         let lcp = make("LcpError", "A complementarity problem that is not valid.", &both)?;
         let start = make("StartError", "A start that does not fit the problem.", &[lcp.bind(py)])?;
-        Ok(Exceptions { base, scene, lcp, start })
+        let simulation = make("SimulationError", "Bad input to a simulation; says what to mend.", &both)?;
+        let step = make("StepError", "A step that could not be made; the world is as before.", &[base.bind(py)])?;
+        Ok(Exceptions { base, scene, lcp, start, simulation, step })
     })
 }
 
@@ -42,7 +50,9 @@ pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("DrystoneError", known.base.bind(py))?;
     module.add("SceneError", known.scene.bind(py))?;
     module.add("LcpError", known.lcp.bind(py))?;
-    module.add("StartError", known.start.bind(py))
+    module.add("StartError", known.start.bind(py))?;
+    module.add("SimulationError", known.simulation.bind(py))?;
+    module.add("StepError", known.step.bind(py))
 }
 
 fn raise(pick: impl Fn(&Exceptions) -> &Py<PyType>, message: String) -> PyErr {
@@ -66,6 +76,17 @@ pub fn lcp_error(error: &LcpError) -> PyErr {
 /// A solver ended without an answer on a structure of so many blocks.
 pub fn no_answer(blocks: usize) -> PyErr {
     raise(|known| &known.base, format!("the equilibrium solver gave no answer on a structure of {blocks} blocks"))
+}
+
+pub fn simulation_error(error: &SimulationError) -> PyErr {
+    match error {
+        SimulationError::Scene(error) => scene_error(error),
+        other => raise(|known| &known.simulation, other.to_string()),
+    }
+}
+
+pub fn step_error(failure: &StepFailure) -> PyErr {
+    raise(|known| &known.step, failure.to_string())
 }
 
 pub fn plan_error(error: PlanError) -> PyErr {

@@ -8,6 +8,7 @@ mod lcp_solver;
 mod plan;
 mod recording;
 mod scene;
+mod simulate;
 mod structure;
 mod verdict;
 
@@ -29,6 +30,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<recording::Recording>()?;
     module.add_class::<recording::Replay>()?;
     module.add_class::<forces::StructureForces>()?;
+    module.add_class::<simulate::World>()?;
+    module.add_class::<simulate::StepRecord>()?;
+    module.add_class::<simulate::Run>()?;
     module.add_class::<lcp::LcpSolution>()?;
     module.add_class::<lcp_solver::LcpSolver>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;

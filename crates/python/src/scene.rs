@@ -37,7 +37,7 @@ pub struct Contact {
     friction: f64,
 }
 
-fn options(name: Option<String>, density: f64, friction: Option<f64>, fixed: bool) -> BodyOptions {
+pub fn options(name: Option<String>, density: f64, friction: Option<f64>, fixed: bool) -> BodyOptions {
     BodyOptions { name, density, friction, fixed }
 }
 

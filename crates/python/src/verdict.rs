@@ -4,6 +4,7 @@ use crate::{arrays::matrix, errors::scene_error, scene::Scene};
 use drystone::{
     Scene as CoreScene,
     check::{Route, check_by},
+    simulate::ContactImpulse,
 };
 use numpy::PyArray2;
 use pyo3::{exceptions::PyValueError, prelude::*};
@@ -35,6 +36,23 @@ pub struct Verdict {
     minor_cycles: usize,
     residual: f64,
     seconds: f64,
+}
+
+impl ContactForce {
+    /// The mean force of a step of length `dt`.
+    pub fn of_impulse(bodies: &[drystone::Body], contact: &ContactImpulse, dt: f64) -> Self {
+        let [a, b] = contact.id.bodies.map(|body| bodies[body].name.clone());
+        Self {
+            a,
+            b,
+            feature: contact.id.feature.to_string(),
+            point: contact.point.into(),
+            normal: contact.normal.into(),
+            normal_force: contact.along_normal / dt,
+            tangential_force: contact.along_tangent / dt,
+            force: contact.impulse().map(|p| p / dt).into(),
+        }
+    }
 }
 
 impl Verdict {

@@ -1,7 +1,7 @@
-"""The command line: `drystone check | plan | scene | bench`.
+"""The command line: `drystone check | plan | simulate | scene | bench`.
 
-Exit status: 0 for yes, 1 for no (it does not stand, there is no order), 2 for bad input, which is
-one line on standard error.
+Exit status: 0 for yes, 1 for no (it does not stand, there is no order, a step could not be made), 2
+for bad input, which is one line on standard error.
 """
 
 from __future__ import annotations

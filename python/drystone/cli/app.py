@@ -12,7 +12,7 @@ from drystone.cli.errors import InputError
 from drystone.cli.scene import scene_app
 
 app = typer.Typer(
-    help="Does it stand, and in which order can it be taken apart? "
+    help="Does it stand, how does it move, and in which order can it be taken apart? "
     "Exact contact dynamics of stacked rigid bodies.",
     no_args_is_help=True,
     add_completion=False,
@@ -44,6 +44,14 @@ class StabilityTest(str, Enum):
     lcp = "lcp"
     lp = "lp"
     lp_warm = "lp-warm"
+
+
+class Reuse(str, Enum):
+    """What a step of `simulate` takes over."""
+
+    full = "full"
+    motionless = "motionless"
+    none = "none"
 
 
 class Engine(str, Enum):
@@ -132,6 +140,31 @@ def plan(
     from drystone.cli import plan as command
 
     return command.run(scene, test.value, node_limit, time_limit, shortcuts, as_json, output)
+
+
+@app.command()
+def simulate(
+    scene: File,
+    dt: Annotated[float, typer.Option(help="Length of a step, seconds.")] = 1 / 240,
+    steps: Annotated[int, typer.Option(min=0, help="So many steps.")] = 1200,
+    reuse: Annotated[
+        Reuse, typer.Option(help="What a step takes over from the one before.")
+    ] = Reuse.full,
+    restitution: Annotated[
+        float, typer.Option(help="Share of the speed with which colliding blocks part, 0 to 1.")
+    ] = 0.0,
+    forces: Annotated[
+        bool, typer.Option("--forces", help="Record the contact forces of every step.")
+    ] = False,
+    as_json: AsJson = False,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Write the run, .npz.")
+    ] = None,
+) -> int:
+    """How does it move? From rest, step by step, with exact contact and friction."""
+    from drystone.cli import simulate as command
+
+    return command.run(scene, dt, steps, reuse.value, restitution, forces, as_json, output)
 
 
 bench_app = typer.Typer(help="Repeat published measurements.", no_args_is_help=True)

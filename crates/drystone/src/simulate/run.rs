@@ -1,6 +1,11 @@
 //! Many steps, recorded.
 
-use super::{error::StepFailure, step::StepRecord, velocity_level::Velocity, world::World};
+use super::{
+    error::StepFailure,
+    step::StepRecord,
+    velocity_level::Velocity,
+    world::{ContactImpulse, World},
+};
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,11 +40,19 @@ pub struct Run {
     pub velocities: Vec<Vec<Velocity>>,
     /// What each step did.
     pub records: Vec<StepRecord>,
+    /// The contacts that bore in each step, if they were asked for.
+    pub contacts: Vec<Vec<ContactImpulse>>,
 }
 
-/// Makes steps and records them. `go_on` is asked before every step, with the number of steps made.
-pub fn run(world: &mut World, steps: usize, mut go_on: impl FnMut(usize) -> bool) -> Run {
-    let mut run = Run { ending: Ending::Finished, poses: Vec::new(), velocities: Vec::new(), records: Vec::new() };
+/// Makes steps and records them, with the impulses at the contacts if `forces` says so. `go_on` is asked before every step, with the number of steps made.
+pub fn run(world: &mut World, steps: usize, forces: bool, mut go_on: impl FnMut(usize) -> bool) -> Run {
+    let mut run = Run {
+        ending: Ending::Finished,
+        poses: Vec::new(),
+        velocities: Vec::new(),
+        records: Vec::new(),
+        contacts: Vec::new(),
+    };
     run.take_down(world);
     for made in 0..steps {
         if !go_on(made) {
@@ -54,6 +67,10 @@ pub fn run(world: &mut World, steps: usize, mut go_on: impl FnMut(usize) -> bool
             }
         }
         run.take_down(world);
+        if forces {
+            let bearing = world.contact_impulses().into_iter().filter(|contact| contact.along_normal > 0.0);
+            run.contacts.push(bearing.collect());
+        }
     }
     run
 }

@@ -75,6 +75,14 @@ pub struct ContactImpulse {
     pub along_tangent: f64,
 }
 
+impl ContactImpulse {
+    /// Impulse on the second body in world axes, N s.
+    pub fn impulse(&self) -> [f64; 2] {
+        let ([nx, ny], n, t) = (self.normal, self.along_normal, self.along_tangent);
+        [n * nx - t * ny, n * ny + t * nx]
+    }
+}
+
 impl World {
     /// A world at rest.
     ///

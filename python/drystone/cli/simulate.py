@@ -1,0 +1,75 @@
+"""`drystone simulate`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drystone.cli.errors import InputError
+from drystone.cli.inputs import load_scene, reporting_files
+from drystone.progress import RunProgress
+from drystone.simulation import Run, simulate
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+INTERRUPTED = 130
+
+
+def run(
+    scene_name: str,
+    dt: float,
+    steps: int,
+    reuse: str,
+    restitution: float,
+    forces: bool,
+    as_json: bool,
+    output: Path | None,
+) -> int:
+    """0 if every step was made, 1 if one could not be, 130 after Ctrl-C."""
+    if output is not None and output.suffix.lower() != ".npz":
+        raise InputError(f"{output}: a run's name ends in .npz")
+    scene = load_scene(scene_name)
+    with RunProgress() as progress:
+        made = simulate(
+            scene, dt, steps, reuse, restitution=restitution, forces=forces, progress=progress
+        )
+    if output is not None:
+        with reporting_files():
+            made.save(output)
+    if as_json:
+        print(json.dumps(made.to_dict(), indent=2))
+    else:
+        _print(made, output)
+    return {"finished": 0, "interrupted": INTERRUPTED}.get(made.status, 1)
+
+
+def _print(made: Run, output: Path | None) -> None:
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    console.print(str(made), style=f"bold {'green' if made.finished else 'red'}", markup=False)
+    if made.steps:
+        console.print(_facts(made))
+    if output is not None:
+        console.print(f"run: {output}")
+
+
+def _facts(made: Run) -> Table:
+    from rich.table import Table
+
+    facts = Table.grid(padding=(0, 2))
+    mean = 1e6 * made.step_seconds.mean()
+    facts.add_row("a step", f"{mean:.3g} µs, {1e6 * made.solve_seconds.mean():.3g} µs in solves")
+    facts.add_row(
+        "pivots",
+        f"{made.pivots.sum()} ({made.major_cycles.sum()} major, {made.minor_cycles.sum()} minor) "
+        f"in {made.solves.sum()} solves",
+    )
+    settled = int(made.motionless.all(axis=1).sum())
+    facts.add_row("steps in which nothing moved", f"{settled} of {made.steps}")
+    facts.add_row("deepest overlap", f"{made.penetration.max():.2g} m")
+    facts.add_row("largest error of friction", f"{made.friction_error.max():.2g} m/s")
+    facts.add_row("reuse", made.reuse)
+    return facts

@@ -1,0 +1,291 @@
+"""How does it move? Exact contact in the plane, step by step."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from drystone import _core
+from drystone.scene import Scene
+from drystone.verdict import counted, shorten
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+REUSE = ("full", "motionless", "none")
+"""What a step may take over from the one before it: see `simulate`."""
+
+ENDINGS = {
+    "finished": "Finished",
+    "interrupted": "Interrupted",
+    "unsolved": "Stopped: a step could not be solved",
+    "too_fast": "Stopped: blocks would pass through each other",
+    "not_finite": "Stopped: the motion is not finite any more",
+}
+"""What a run's status says."""
+
+Progress = Callable[[int, int], None]
+"""Called with (steps made, steps in all) a few times a second."""
+
+_FORMAT = "drystone-run"
+_UNREADABLE = (AttributeError, EOFError, KeyError, TypeError, ValueError)
+_VERSION = 1
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Run:
+    """The record of `simulate`: k steps of n bodies, fixed ones included.
+
+    Work and errors have one entry a step. `poses` and `velocities` have one more: the beginning.
+    """
+
+    status: str
+    """"finished", "interrupted", or why a step could not be made: "unsolved", "too_fast",
+    "not_finite". The steps before it are here."""
+    reason: str | None
+    """For a step that could not be made: what happened, and what to do."""
+    names: tuple[str, ...]
+    """Names of the bodies, in the order of the arrays."""
+    dt: float
+    """Length of a step, seconds."""
+    reuse: str
+    restitution: float
+    poses: NDArray[np.float64]
+    """(k + 1, n, 3): the centroid's x and y in metres, and the angle in radians."""
+    velocities: NDArray[np.float64]
+    """(k + 1, n, 3): m/s, m/s, rad/s."""
+    motionless: NDArray[np.bool_]
+    """(k, n): which bodies kept their place in the step, to the bit; fixed ones do."""
+    pivots: NDArray[np.int64]
+    """(k,): major plus minor cycles of all solves of the step."""
+    major_cycles: NDArray[np.int64]
+    minor_cycles: NDArray[np.int64]
+    solves: NDArray[np.int64]
+    """(k,): the first one, and those that make Coulomb's law exact."""
+    rows: NDArray[np.int64]
+    """(k,): rows of the step's complementarity problem."""
+    rows_reused: NDArray[np.int64]
+    """(k,): active rows whose part of the factor came from the step before."""
+    projections: NDArray[np.int64]
+    """(k,): times that overlaps were taken back; their pivots are in `pivots`."""
+    solve_seconds: NDArray[np.float64]
+    """(k,): wall time of the solves, the factor included."""
+    step_seconds: NDArray[np.float64]
+    """(k,): wall time of the whole step."""
+    residual: NDArray[np.float64]
+    """(k,): of the last solve, in its problem's scale."""
+    friction_error: NDArray[np.float64]
+    """(k,): m/s by which a contact departs from Coulomb's law; at most 1e-9 (relative above 1 m/s)
+    unless the iteration did not converge."""
+    penetration: NDArray[np.float64]
+    """(k,): deepest overlap at the end of the step, metres."""
+    force_starts: NDArray[np.int64]
+    """With `forces=True` (k + 1,): step j's forces are the rows from entry j to entry j + 1 of the
+    three arrays below. Else one zero."""
+    force_bodies: NDArray[np.int64]
+    """(m, 2): indices of the two bodies in `names`."""
+    force_points: NDArray[np.float64]
+    """(m, 2): where, metres."""
+    forces: NDArray[np.float64]
+    """(m, 2): mean force of the first body on the second in the step, N."""
+    scene: Scene = field(repr=False)
+    """The scene at the beginning."""
+
+    @classmethod
+    def _of(cls, core: _core.Run, world: _core.World, scene: Scene) -> Run:
+        own = {"names", "dt", "reuse", "restitution", "scene"}
+        recorded = {f.name: getattr(core, f.name) for f in fields(cls) if f.name not in own}
+        return cls(
+            names=tuple(world.names),
+            dt=world.dt,
+            reuse=world.reuse,
+            restitution=world.restitution,
+            scene=scene,
+            **recorded,
+        )
+
+    @property
+    def steps(self) -> int:
+        """Steps made."""
+        return len(self.pivots)
+
+    @property
+    def finished(self) -> bool:
+        """All steps asked for were made."""
+        return self.status == "finished"
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Names of the bodies that moved in the last step."""
+        if self.steps == 0:
+            return ()
+        still = self.motionless[-1]
+        return tuple(name for name, rests in zip(self.names, still, strict=True) if not rests)
+
+    def __str__(self) -> str:
+        text = (
+            f"{ENDINGS.get(self.status, self.status)}: {counted(self.steps, 'step')} of "
+            f"{self.dt:.4g} s, {counted(int(self.pivots.sum()), 'pivot')}, "
+            f"{1e3 * float(self.solve_seconds.sum()):.3g} ms in solves of "
+            f"{1e3 * float(self.step_seconds.sum()):.3g} ms."
+        )
+        if self.reason is not None:
+            text += f"\n{self.reason}."
+        if self.steps:
+            text += (
+                f"\nMoving at the end: {shorten(self.moving)}."
+                if self.moving
+                else ("\nNothing moves at the end.")
+            )
+        return text
+
+    def to_dict(self) -> dict[str, Any]:
+        """Totals and the last state, in types that JSON knows; `save` keeps the arrays."""
+        worst = {
+            name: float(getattr(self, name).max(initial=0.0))
+            for name in ("residual", "friction_error", "penetration")
+        }
+        totals = {
+            name: int(getattr(self, name).sum())
+            for name in ("pivots", "major_cycles", "minor_cycles", "solves", "rows_reused")
+        }
+        return {
+            "status": self.status,
+            "reason": self.reason,
+            "dt": self.dt,
+            "reuse": self.reuse,
+            "restitution": self.restitution,
+            "steps": self.steps,
+            **totals,
+            "projections": int(self.projections.sum()),
+            "solve_seconds": float(self.solve_seconds.sum()),
+            "step_seconds": float(self.step_seconds.sum()),
+            **{f"largest_{name}": value for name, value in worst.items()},
+            "moving": list(self.moving),
+            "poses": {
+                name: [float(x) for x in pose]
+                for name, pose in zip(self.names, self.poses[-1], strict=True)
+            },
+        }
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the run as a compressed NumPy archive (.npz), whole or not at all."""
+        import numpy as np
+
+        arrays = {
+            f.name: getattr(self, f.name)
+            for f in fields(self)
+            if hasattr(getattr(self, f.name), "dtype")
+        }
+        about = {
+            "format": _FORMAT,
+            "version": _VERSION,
+            "status": self.status,
+            "reason": self.reason,
+            "names": list(self.names),
+            "dt": self.dt,
+            "reuse": self.reuse,
+            "restitution": self.restitution,
+            "scene": self.scene.to_json(),
+        }
+        target = Path(path)
+        handle, name = tempfile.mkstemp(
+            dir=target.parent, prefix=f".{target.name}.", suffix=".part"
+        )
+        try:
+            with os.fdopen(handle, "wb") as file:
+                np.savez_compressed(file, about=np.array(json.dumps(about)), **arrays)
+            os.replace(name, target)
+        except BaseException:
+            os.unlink(name)
+            raise
+
+    @classmethod
+    def load(cls, path: str | PathLike[str]) -> Run:
+        """Read a run that `save` wrote; SimulationError for another or a damaged file."""
+        import zipfile
+        import zlib
+
+        import numpy as np
+
+        try:
+            with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
+                about = json.loads(str(archive["about"]))
+                arrays = {name: archive[name] for name in archive.files if name != "about"}
+            if (about.pop("format"), about.pop("version")) != (_FORMAT, _VERSION):
+                raise ValueError("it is of another format or version")
+            about["names"] = tuple(about["names"])
+            about["scene"] = Scene.from_json(about["scene"])
+            return cls(**about, **arrays)
+        except OSError:
+            raise
+        except (*_UNREADABLE, zipfile.BadZipFile, zlib.error) as error:
+            raise _core.SimulationError(
+                f"{os.fspath(path)}: this is no run that drystone recorded ({error})"
+            ) from None
+
+
+def simulate(
+    scene: Scene,
+    dt: float = 1 / 240,
+    steps: int = 1200,
+    reuse: str = "full",
+    *,
+    restitution: float = 0.0,
+    velocities: Mapping[str, Sequence[float]] | None = None,
+    forces: bool = False,
+    progress: Progress | None = None,
+) -> Run:
+    """Let the bodies of a scene move, from rest or with the `velocities` given by name.
+
+    Every step of `dt` seconds is one complementarity problem of impulses and velocities over the
+    contacts that may close in it: resting, sliding with Coulomb's friction, rolling over corners
+    and impacts alike. What stands still keeps its place to the bit. `reuse` says what a step takes
+    over from the one before; the motion is the same:
+
+    - "full": everything that did not move: impulses, active set, factor rows, contact geometry;
+    - "motionless": the solution of the motionless part, solved anew when that part changes, as in
+      the paper;
+    - "none": nothing.
+
+    `restitution` is the share of the normal velocity with which colliding bodies part (0 to 1).
+    `velocities` are (m/s, m/s, rad/s). With `forces` the run holds the contact forces of every
+    step.
+
+    A step that cannot be made, and Ctrl-C, end the run; its status says so, and the steps before
+    are kept.
+
+    Raises SimulationError for a `dt` that is not above zero, a `restitution` outside 0 to 1 or
+    numbers that are not finite, and SceneError for bodies that overlap.
+
+    >>> import drystone as ds
+    >>> run = ds.simulate(ds.scenes.fall7(), steps=240)
+    >>> run.moving
+    ('6', '7')
+    >>> run.poses.shape
+    (241, 8, 3)
+    """
+    if steps < 0:
+        raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
+    world = _core.World(scene._core, dt, reuse, restitution)
+    for name, velocity in (velocities or {}).items():
+        world.set_velocity(name, three(velocity, f'block "{name}": velocity'))
+    start = Scene._of(world.scene)
+    return Run._of(world.run(steps, forces, progress), world, start)
+
+
+def three(value: Sequence[float], what: str) -> tuple[float, float, float]:
+    """`value` as three floats; SimulationError naming `what` otherwise."""
+    try:
+        x, y, turning = value
+        return float(x), float(y), float(turning)
+    except (TypeError, ValueError):
+        message = f"{what} must be three numbers (m/s, m/s, rad/s), not {value!r}"
+        raise _core.SimulationError(message) from None

@@ -1,0 +1,207 @@
+"""Bodies in motion, one step at a time, and what may be done to them between two steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from drystone import _core
+from drystone.scene import Point, Scene, _pair
+from drystone.simulation import Progress, Run, three
+from drystone.verdict import ContactForce
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StepRecord:
+    """What one step did; the fields are those of `Run`, for one step."""
+
+    motionless: NDArray[np.bool_]
+    """(bodies,): which kept their place, to the bit."""
+    pivots: int
+    major_cycles: int
+    minor_cycles: int
+    solves: int
+    rows: int
+    rows_reused: int
+    solve_seconds: float
+    seconds: float
+    residual: float
+    friction_error: float
+    penetration: float
+    projections: int
+
+
+class World:
+    """A scene in motion.
+
+    >>> import drystone as ds
+    >>> world = ds.World(ds.scenes.column(4, friction=0.5))
+    >>> world.step().pivots > 0
+    True
+    >>> world.step().pivots
+    0
+    >>> world.apply_force("3", (30, 0))
+    >>> bool(world.step().motionless[3])
+    False
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(
+        self,
+        scene: Scene,
+        dt: float = 1 / 240,
+        reuse: str = "full",
+        *,
+        restitution: float = 0.0,
+    ) -> None:
+        """Begin with a scene at rest; the arguments and errors are those of `simulate`."""
+        self._core = _core.World(scene._core, dt, reuse, restitution)
+
+    def step(self) -> StepRecord:
+        """Make one step. StepError if it cannot be made; the world is then as it was."""
+        record = self._core.step()
+        return StepRecord(*(getattr(record, name) for name in StepRecord.__slots__))
+
+    def run(self, steps: int, *, forces: bool = False, progress: Progress | None = None) -> Run:
+        """Make steps and record them, as `simulate` does."""
+        if steps < 0:
+            raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
+        start = self.scene
+        return Run._of(self._core.run(steps, forces, progress), self._core, start)
+
+    @property
+    def scene(self) -> Scene:
+        """The bodies where they are now."""
+        return Scene._of(self._core.scene)
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all bodies, in the order of the arrays."""
+        return self._core.names
+
+    @property
+    def dt(self) -> float:
+        """Length of a step, seconds."""
+        return self._core.dt
+
+    @property
+    def steps(self) -> int:
+        """Steps made."""
+        return self._core.steps
+
+    @property
+    def poses(self) -> NDArray[np.float64]:
+        """(bodies, 3): the centroid's x and y in metres, and the angle in radians."""
+        return self._core.poses
+
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """(bodies, 3): m/s, m/s, rad/s."""
+        return self._core.velocities
+
+    @property
+    def motionless(self) -> NDArray[np.bool_]:
+        """(bodies,): which kept their place in the last step."""
+        return self._core.motionless
+
+    @property
+    def energy(self) -> float:
+        """Kinetic energy and the potential energy of gravity (zero at the origin), joules."""
+        return self._core.energy
+
+    @property
+    def forces(self) -> tuple[ContactForce, ...]:
+        """Mean force of the last step at every contact point that bears."""
+        return tuple(
+            ContactForce(
+                f.a,
+                f.b,
+                f.feature,
+                f.point,
+                f.normal,
+                f.normal_force,
+                f.tangential_force,
+                f.force,
+            )
+            for f in self._core.forces()
+        )
+
+    def set_velocity(self, name: str, velocity: Sequence[float]) -> None:
+        """Set a body's velocity: (m/s, m/s, rad/s)."""
+        self._core.set_velocity(name, three(velocity, f'block "{name}": velocity'))
+
+    def apply_force(
+        self, name: str, force: Point, at: Point | None = None, moment: float = 0.0
+    ) -> None:
+        """Push a body during the next step.
+
+        `force` (N) acts at the point `at` (world coordinates, metres), at the centroid without one;
+        `moment` is in N m. Pushes add up, and end with the step.
+        """
+        place = None if at is None else _pair(at, "at")
+        self._core.apply_force(name, _pair(force, "force"), place, moment)
+
+    def apply_impulse(
+        self, name: str, impulse: Point, at: Point | None = None, moment: float = 0.0
+    ) -> None:
+        """Change a body's velocity at once by an impulse (N s) and an impulsive moment (N m s)."""
+        place = None if at is None else _pair(at, "at")
+        self._core.apply_impulse(name, _pair(impulse, "impulse"), place, moment)
+
+    def add_box(
+        self,
+        center: Point,
+        size: Point,
+        angle: float = 0.0,
+        name: str | None = None,
+        density: float = 1.0,
+        friction: float | None = None,
+        fixed: bool = False,
+    ) -> str:
+        """Add a box at rest and return its name; see `Scene.add_box`."""
+        return self._core.add_box(
+            _pair(center, "center"), _pair(size, "size"), angle, name, density, friction, fixed
+        )
+
+    def add_polygon(
+        self,
+        vertices: Iterable[Point],
+        name: str | None = None,
+        density: float = 1.0,
+        friction: float | None = None,
+        fixed: bool = False,
+    ) -> str:
+        """Add a convex polygon at rest and return its name; see `Scene.add_polygon`."""
+        corners = [_pair(vertex, "a vertex") for vertex in vertices]
+        return self._core.add_polygon(corners, name, density, friction, fixed)
+
+    def remove(self, name: str) -> None:
+        """Take a body out. The next step starts from scratch."""
+        self._core.remove(name)
+
+    def snapshot(self) -> bytes:
+        """The whole state. What goes on from it goes on bit for bit."""
+        return self._core.snapshot()
+
+    @classmethod
+    def restore(cls, snapshot: bytes) -> World:
+        """The world that a snapshot was taken of; SimulationError for anything else."""
+        world = cls.__new__(cls)
+        world._core = _core.World.restore(snapshot)
+        return world
+
+    def state_hash(self) -> int:
+        """A number for the state: places, velocities, pending pushes and the count of steps.
+
+        Two worlds share it when these are the same to the bit.
+        """
+        return self._core.state_hash()
+
+    def __repr__(self) -> str:
+        return f"<World: {len(self.names)} bodies after {self.steps} steps of {self.dt:.4g} s>"
