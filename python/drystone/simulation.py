@@ -26,7 +26,7 @@ ENDINGS = {
     "finished": "Finished",
     "interrupted": "Interrupted",
     "unsolved": "Stopped: a step could not be solved",
-    "too_fast": "Stopped: blocks would pass through each other",
+    "too_fast": "Stopped: a block turns too fast for the step",
     "not_finite": "Stopped: the motion is not finite any more",
 }
 """What a run's status says."""

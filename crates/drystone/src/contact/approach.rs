@@ -11,7 +11,8 @@
 //!
 //! exactly, turning of the face included, because the velocity of the face's block is taken at the corner too. A corner
 //! beyond the face's ends is left out unless the bodies' motion takes it before the face and through it within the step: the
-//! face does not reach beyond its ends, and a block that falls past an edge must not be held by it.
+//! face does not reach beyond its ends, and a block that falls past an edge must not be held by it. Blocks that meet at a
+//! corner of each on their way, however far in the step, have the approach at the face where they meet.
 
 use super::{
     ContactId, Feature, broad_phase,
@@ -66,8 +67,8 @@ struct Pair {
     approaches: Vec<Approach>,
     /// The greatest separation over the faces, metres: negative by the depth of an overlap.
     separation: f64,
-    /// Motion in a straight line would take the two through each other unseen.
-    crossing: bool,
+    /// One of them that turns too far in the step for its corners' ways to be straight.
+    whirls: Option<usize>,
 }
 
 impl ApproachFinder {
@@ -127,9 +128,9 @@ impl ApproachFinder {
         self.pairs.iter().filter(|pair| pair.separation < 0.0).map(|pair| (pair.bodies, -pair.separation))
     }
 
-    /// The first pair that would cross within the step at a corner, too fast to be seen.
-    pub fn crossing(&self) -> Option<[usize; 2]> {
-        self.pairs.iter().find(|pair| pair.crossing).map(|pair| pair.bodies)
+    /// A body that turns by more than [`MOST_TURN`] within reach of another, and the pair.
+    pub fn whirling(&self) -> Option<(usize, [usize; 2])> {
+        self.pairs.iter().find_map(|pair| Some((pair.whirls?, pair.bodies)))
     }
 
     fn look_at(&self, scene: &Scene, bodies: [usize; 2], travel: &[Travel]) -> Pair {
@@ -146,15 +147,19 @@ impl ApproachFinder {
             bodies,
             friction: scene.pair_friction(a, b),
         };
-        let width = |i: usize| scene.bodies()[i].polygon.width();
-        near.pair(0.5 * width(a).min(width(b)))
+        near.pair()
     }
 }
 
-/// How far beyond its outline a body may come within the step, metres, with the contact tolerance.
+/// Radians: beyond this the straight ways of the corners say nothing about where they go.
+pub const MOST_TURN: f64 = 1.0;
+
+/// How far beyond its outline a body may come within the step, metres, with the contact tolerance. No turn takes a corner
+/// further than across.
 fn reach(scene: &Scene, i: usize, [x, y, turn]: &Travel) -> f64 {
     let body = &scene.bodies()[i];
-    super::tolerance_of(scene, body) + if body.fixed { 0.0 } else { x.hypot(*y) + turn.abs() * body.polygon.radius() }
+    super::tolerance_of(scene, body)
+        + if body.fixed { 0.0 } else { x.hypot(*y) + turn.abs().min(2.0) * body.polygon.radius() }
 }
 
 /// Two bodies that may meet. Everything is relative to the first one's centroid.
@@ -185,12 +190,12 @@ struct End {
 }
 
 impl Near<'_> {
-    fn pair(&self, far: f64) -> Pair {
+    fn pair(&self) -> Pair {
         let [a, b] = self.outlines;
         let (face_a, separation_a) = greatest_separation(a, b, self.offset);
         let (face_b, separation_b) = greatest_separation(b, a, -self.offset);
         let separation = separation_a.max(separation_b);
-        let mut pair = Pair { bodies: self.bodies, approaches: Vec::new(), separation, crossing: false };
+        let mut pair = Pair { bodies: self.bodies, approaches: Vec::new(), separation, whirls: None };
         if separation > self.reach {
             return pair;
         }
@@ -199,8 +204,11 @@ impl Near<'_> {
         let ends = self.ends(reference, face);
         pair.approaches = ends.into_iter().filter_map(|(owner, end)| self.approach(owner, &end)).collect();
         pair.approaches.sort_by_key(|approach| approach.id);
-        let apart = pair.approaches.is_empty() && separation > 0.0;
-        pair.crossing = apart && self.drift().length() > far && self.sweeps_through();
+        if pair.approaches.is_empty() && separation > 0.0 {
+            let met = self.first_met().map(|(owner, face)| (owner, self.end(owner, face, self.closest(owner, face))));
+            pair.approaches.extend(met.map(|(owner, end)| self.between(owner, &end)));
+        }
+        pair.whirls = (0..2).find(|&k| self.travel[k][2].abs() > MOST_TURN).map(|k| self.bodies[k]);
         pair
     }
 
@@ -245,18 +253,22 @@ impl Near<'_> {
         if end.gap > self.reach || !self.meets(owner, end) {
             return None;
         }
+        Some(self.between(owner, end))
+    }
+
+    fn between(&self, owner: usize, end: &End) -> Approach {
         let (feature, normal) = match owner {
             0 => (Feature::CornerOfB { a: end.face, b: end.corner }, end.normal),
             _ => (Feature::CornerOfA { a: end.corner, b: end.face }, -end.normal),
         };
-        Some(Approach {
+        Approach {
             id: ContactId { bodies: self.bodies, feature },
             normal: normal.to_array(),
             corner: (self.origin + end.at).to_array(),
             arms: [end.at.to_array(), (end.at - self.offset).to_array()],
             gap: end.gap,
             friction: self.friction,
-        })
+        }
     }
 
     /// Whether the corner is before the face, or comes to be so and through it within the step.
@@ -285,27 +297,48 @@ impl Near<'_> {
         Vector::new(b[0] - a[0], b[1] - a[1])
     }
 
-    /// Whether the second body, moved in a straight line, meets the first: separating axes over the time of the step.
-    fn sweeps_through(&self) -> bool {
-        let shift = self.drift();
-        let [a, b] = self.outlines;
-        let mut meeting = [0.0_f64, 1.0];
-        for axis in a.normals.iter().chain(&b.normals).copied().chain([shift.normalize_or_zero().perp()]) {
-            let span = |outline: &Outline, at: f64| {
-                let along = outline.vertices.iter().map(|v| axis.dot(*v) + at);
+    /// The face (of body 0 or 1) at which the second body, moved in a straight line, first meets the first: separating
+    /// axes over the time of the step. None if they do not meet.
+    fn first_met(&self) -> Option<(usize, usize)> {
+        let drift = self.drift();
+        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+        let mut met: Option<(f64, usize, usize)> = None;
+        for (owner, face) in [0, 1].into_iter().flat_map(|owner| self.faces(owner).map(move |face| (owner, face))) {
+            let normal = self.outlines[owner].normals[face];
+            let span = |k: usize| {
+                let origin = if k == 0 { Vector::ZERO } else { self.offset };
+                let along = self.outlines[k].vertices.iter().map(|v| normal.dot(*v + origin));
                 along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [x.min(low), x.max(high)])
             };
-            let ([a_low, a_high], [b_low, b_high]) = (span(a, 0.0), span(b, axis.dot(self.offset)));
-            let speed = axis.dot(shift);
+            let ([own_low, own_high], [low, high]) = (span(owner), span(1 - owner));
+            // How fast the other body moves outwards, seen from the face's owner.
+            let speed = if owner == 0 { normal.dot(drift) } else { -normal.dot(drift) };
+            let outside = low >= own_high;
             if speed == 0.0 {
-                if b_low >= a_high || b_high <= a_low {
-                    return false;
+                if outside || high <= own_low {
+                    return None;
                 }
                 continue;
             }
-            let (first, last) = ((a_low - b_high) / speed, (a_high - b_low) / speed);
-            meeting = [meeting[0].max(first.min(last)), meeting[1].min(first.max(last))];
+            let times = [(own_high - low) / speed, (own_low - high) / speed];
+            let first = times[0].min(times[1]);
+            leave = leave.min(times[0].max(times[1]));
+            if outside && met.is_none_or(|(latest, ..)| first > latest) {
+                met = Some((first, owner, face));
+            }
+            enter = enter.max(first);
         }
-        meeting[0] < meeting[1]
+        met.filter(|_| enter < leave).map(|(_, owner, face)| (owner, face))
+    }
+
+    fn faces(&self, owner: usize) -> std::ops::Range<usize> {
+        0..self.outlines[owner].normals.len()
+    }
+
+    /// The other body's corner closest to the line of a face.
+    fn closest(&self, owner: usize, face: usize) -> usize {
+        let normal = self.outlines[owner].normals[face];
+        let height = |k: &usize| normal.dot(self.outlines[1 - owner].vertices[*k]);
+        self.faces(1 - owner).min_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(0)
     }
 }

@@ -58,16 +58,17 @@ pub enum StepFailure {
         /// The solver's status.
         status: &'static str,
     },
-    /// Two blocks would pass through each other at a corner, further in one step than half the narrower one's width.
+    /// A block turns by more than a radian in the step within reach of another.
     #[error(
-        "blocks \"{a}\" and \"{b}\" would pass through each other within one step: take a time step of {dt:.3e} s or less"
+        "block \"{body}\" turns by more than a radian within one step next to \"{other}\": \
+         take a time step of {dt:.3e} s or less"
     )]
     TooFast {
-        /// Name of the one.
-        a: String,
+        /// Name of the block.
+        body: String,
         /// Name of the other.
-        b: String,
-        /// A time step in which they move by less than that.
+        other: String,
+        /// A time step in which it turns by less.
         dt: f64,
     },
     /// Positions or velocities have left the range of numbers.

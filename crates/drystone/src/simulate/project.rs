@@ -21,13 +21,27 @@ pub(super) const ALLOWED: f64 = 0.5;
 /// Times the problem is linearised anew. Each leaves a square of what the last one moved, so two are the rule.
 pub(super) const ROUNDS: usize = 10;
 
+/// Share of its own entry of the matrix by which each contact gives way where bodies are jammed.
+const COMPLIANCE: f64 = 1e-3;
+
 /// Moves bodies apart so that no gap of the approaches is negative, to first order. `inverse_mass` is zero for what is
-/// held. Returns the change of every place, or none if there is no way out.
+/// held. Where bodies are jammed between others there may be no such motion; each contact then gives way a little, which
+/// leaves a share of the overlap. Returns the change of every place.
 pub(super) fn way_out(
     approaches: &[&Approach],
     inverse_mass: &[[f64; 3]],
     counts: &mut Counts,
 ) -> Option<Vec<[f64; 3]>> {
+    part(approaches, inverse_mass, 0.0, counts).or_else(|| part(approaches, inverse_mass, COMPLIANCE, counts))
+}
+
+fn part(
+    approaches: &[&Approach],
+    inverse_mass: &[[f64; 3]],
+    compliance: f64,
+    counts: &mut Counts,
+) -> Option<Vec<[f64; 3]>> {
+    let mut weights = inverse_mass.as_flattened().to_vec();
     let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
     for approach in approaches {
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
@@ -38,11 +52,19 @@ pub(super) fn way_out(
                 data.extend([sign * nx, sign * ny, sign * (rx * ny - ry * nx)]);
             }
         }
+        if compliance > 0.0 {
+            // A coordinate of the contact's own, as if something soft were in between.
+            let own: f64 =
+                (indptr[indptr.len() - 1]..data.len()).map(|p| data[p] * data[p] * weights[indices[p]]).sum();
+            indices.push(weights.len());
+            data.push(1.0);
+            weights.push(compliance * own);
+        }
         indptr.push(indices.len());
     }
     let gaps = approaches.iter().map(|approach| approach.gap).collect();
-    let g = Columns::new(3 * inverse_mass.len(), &indptr, &indices, &data).ok()?;
-    let problem = Problem::from_generators_and_q(&g, inverse_mass.as_flattened(), gaps).ok()?;
+    let g = Columns::new(weights.len(), &indptr, &indices, &data).ok()?;
+    let problem = Problem::from_generators_and_q(&g, &weights, gaps).ok()?;
     let mut solver = Solver::new(problem, Settings::default()).ok()?;
     solver.add_rows(&(0..approaches.len()).collect::<Vec<_>>()).ok()?;
     let status = solver.solve();
@@ -52,7 +74,7 @@ pub(super) fn way_out(
     }
     let mut change = vec![[0.0; 3]; inverse_mass.len()];
     for row in 0..approaches.len() {
-        for p in indptr[row]..indptr[row + 1] {
+        for p in (indptr[row]..indptr[row + 1]).filter(|&p| indices[p] < 3 * inverse_mass.len()) {
             let (body, axis) = (indices[p] / 3, indices[p] % 3);
             change[body][axis] += inverse_mass[body][axis] * data[p] * solver.z(row);
         }

@@ -10,7 +10,10 @@ use super::{
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
     world::World,
 };
-use crate::contact::{approach::Approach, pair_tolerance};
+use crate::contact::{
+    approach::{Approach, MOST_TURN},
+    pair_tolerance,
+};
 use drystone_lcp::Counts;
 use std::time::{Duration, Instant};
 
@@ -98,8 +101,8 @@ impl World {
             self.finder.clear();
         }
         self.find_approaches(free);
-        if let Some([a, b]) = self.finder.crossing() {
-            return Err(self.too_fast(a, b, free));
+        if let Some((body, pair)) = self.finder.whirling() {
+            return Err(self.too_fast(body, pair, free));
         }
         Ok(VelocityLevel::new(self.finder.approaches().copied().collect()))
     }
@@ -109,12 +112,10 @@ impl World {
         self.finder.find(&self.scene, &travel);
     }
 
-    fn too_fast(&self, a: usize, b: usize, free: &[Velocity]) -> StepFailure {
-        let bodies = self.scene.bodies();
-        let speed = (free[b][0] - free[a][0]).hypot(free[b][1] - free[a][1]);
-        let width = bodies[a].polygon.width().min(bodies[b].polygon.width());
-        let name = |i: usize| bodies[i].name.clone();
-        StepFailure::TooFast { a: name(a), b: name(b), dt: 0.5 * width / speed }
+    fn too_fast(&self, body: usize, [a, b]: [usize; 2], free: &[Velocity]) -> StepFailure {
+        let name = |i: usize| self.scene.bodies()[i].name.clone();
+        let other = if body == a { b } else { a };
+        StepFailure::TooFast { body: name(body), other: name(other), dt: MOST_TURN / free[body][2].abs() }
     }
 
     /// The offset c of every approach, m/s: what may be closed of a gap within the step, and the rebound of an impact.
