@@ -66,6 +66,17 @@ def test_the_order_matters_in_the_random_structure(rows: dict[str, paper.Row]) -
     assert not all(ds.check(plan.scene, names[taken:]).stable for taken in range(len(names)))
 
 
+def test_reuse_saves_in_the_simulations() -> None:
+    """Exact work counts; the times are for the reader."""
+    fig1, fig4 = (measured.segments() for measured in paper.measure_motions())
+    assert [segment.moving for segment in fig1] == [-1, 1, 2]
+    assert [segment.moving for segment in fig4] == [-1, 2, 5, 7]
+    assert fig1[0].saved(fig1[0].pivots, "full") >= 0.9
+    for segment in fig1 + fig4:
+        assert segment.pivots["full"] < 0.2 * segment.pivots["none"], segment.label
+        assert all(seconds > 0 for seconds in segment.seconds.values())
+
+
 def test_the_command_prints_the_table_and_writes_everything(
     cli: Callable[..., Ran], tmp_path: Path
 ) -> None:
@@ -75,12 +86,17 @@ def test_the_command_prints_the_table_and_writes_everything(
         assert number in ran.out
     written = sorted(path.name for path in (tmp_path / "new" / "folder").iterdir())
     assert written == [
+        "fig1_fig4_pivots_by_step.png",
+        "fig1_fig4_pivots_by_step.svg",
         "fig5_disassembly_graph.png",
         "fig5_disassembly_graph.svg",
         "fig6_pivots_by_size.png",
         "fig6_pivots_by_size.svg",
         "fig7_disassembly_order.png",
         "fig7_disassembly_order.svg",
+        "motion.csv",
+        "order.png",
+        "order.svg",
         "table1.csv",
     ]
     with (tmp_path / "new" / "folder" / "table1.csv").open() as file:

@@ -177,7 +177,7 @@ def paper(
         Path, typer.Option("-o", "--output", help="Folder for the table and the figures.")
     ] = Path("out/paper"),
 ) -> int:
-    """Table I and Figs. 5, 6 and 7 of Loomis and Balkcom (2006)."""
+    """Table I and Figs. 1 and 4 to 7 of Loomis and Balkcom (2006)."""
     from drystone.cli import bench as command
 
     return command.paper(output)

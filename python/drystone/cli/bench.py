@@ -10,7 +10,7 @@ from drystone.cli.inputs import load_scene, reporting_files
 
 
 def paper(folder: Path) -> int:
-    """Print Table I and write the figures; 0 if every assembly was planned."""
+    """Print Table I and the simulations, write the figures; 0 if all was planned and simulated."""
     from rich.console import Console
 
     from drystone import paper
@@ -20,13 +20,17 @@ def paper(folder: Path) -> int:
         folder.mkdir(parents=True, exist_ok=True)
         with console.status("planning") as status:
             rows = paper.measure(lambda what: status.update(f"planning {what}"))
+            moved = paper.measure_motions(lambda what: status.update(f"simulating {what}"))
             status.update("drawing")
             written = [paper.write_csv(rows, folder), *paper.write_figures(rows, folder)]
-    for table in paper.as_tables(rows):
+            written += [paper.write_motion_csv(moved, folder)]
+            written += paper.write_motion_figures(moved, folder)
+    for table in (*paper.as_tables(rows), *paper.motion_tables(moved)):
         console.print(table)
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
-    return 0 if all(row.found for row in rows) else 1
+    finished = all(run.finished for scene in moved for run in scene.runs.values())
+    return 0 if finished and all(row.found for row in rows) else 1
 
 
 def methods(names: Sequence[str], repeats: int, folder: Path | None, as_json: bool) -> int:

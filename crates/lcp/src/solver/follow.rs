@@ -5,7 +5,7 @@
 //! factor, take their new entries and come back with the `z` they had; rows that are gone leave for good. The next solve then
 //! settles the state and goes on from there, as after any change (`settle.rs`).
 
-use super::{Role, Solver};
+use super::{Load, Role, Solver};
 use crate::{
     error::LcpError,
     factor::{self, ActiveFactor},
@@ -13,6 +13,7 @@ use crate::{
     problem::Problem,
     scaling::Scaling,
 };
+use std::sync::Arc;
 
 /// Where a row of the new problem comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,30 +51,73 @@ impl Solver {
         let place = self.places(problem.len(), origins)?;
         let scaling = Scaling::new(&problem);
         let m = problem.m().scaled_symmetrically(&scaling.d);
+        let in_place = place.len() == origins.len() && place.iter().enumerate().all(|(i, &new)| new == Some(i));
+        if in_place && m.same_pattern(&self.m) {
+            return self.follow_in_place(problem, scaling, m, origins);
+        }
         self.require_same(&m, origins)?;
 
-        let was_active = self.active.members().to_vec();
-        let stays = |old: usize| place[old].is_some_and(|new| origins[new] == Origin::Same(old));
-        for &old in was_active.iter().filter(|&&old| !stays(old)) {
-            self.counts.factor_rows += 1;
-            self.factor.remove(old);
-        }
-        let (factor, kept) = self.carried_factor(&m, origins, &place);
+        let stays = |&old: &usize| place[old].is_some_and(|new| origins[new] == Origin::Same(old));
+        let (staying, leaving): (Vec<usize>, Vec<usize>) = self.active.members().iter().partition(|old| stays(old));
+        self.take_out(&leaving);
+        let (factor, kept) = self.carried_factor(&m, &place);
         let mut next = Self::assembled(problem, scaling, m, factor, self.settings.clone());
         next.counts = self.counts;
         next.counts_at_solve = self.counts_at_solve;
         next.take_over(self, origins, &place);
-        let stayed: Vec<usize> = was_active.iter().filter(|&&old| stays(old)).filter_map(|&old| place[old]).collect();
-        if kept {
-            stayed.iter().for_each(|&i| next.active.insert(i));
-        } else {
-            stayed.iter().for_each(|&i| next.come_back(i));
+        for i in staying.iter().filter_map(|&old| place[old]) {
+            if kept {
+                next.active.insert(i);
+            } else {
+                next.come_back(i);
+            }
         }
-        let moved = was_active.iter().filter(|&&old| !stays(old)).filter_map(|&old| place[old]);
-        moved.for_each(|i| next.come_back(i));
+        leaving.iter().filter_map(|&old| place[old]).for_each(|i| next.come_back(i));
         next.recompute_w();
         *self = next;
-        Ok(if kept { stayed.len() } else { 0 })
+        Ok(if kept { staying.len() } else { 0 })
+    }
+
+    /// The same for a problem with the same rows, of which some have other entries at the same places.
+    fn follow_in_place(
+        &mut self,
+        problem: Problem,
+        scaling: Scaling,
+        m: SparseColumns,
+        origins: &[Origin],
+    ) -> Result<usize, LcpError> {
+        let moved = |i: usize| matches!(origins[i], Origin::Moved(_));
+        for column in (0..m.len()).filter(|&column| !moved(column)) {
+            let ((rows, values), (_, old)) = (m.column(column), self.m.column(column));
+            for ((&row, &value), &before) in rows.iter().zip(values).zip(old) {
+                if value != before && !moved(row) {
+                    return Err(LcpError::RowChanged { row, column, value, before });
+                }
+            }
+        }
+        let leaving: Vec<usize> = self.active.members().iter().copied().filter(|&i| moved(i)).collect();
+        let stayed = self.active.members().len() - leaving.len();
+        self.take_out(&leaving);
+        leaving.iter().for_each(|&i| self.active.remove(i));
+        for i in (0..origins.len()).filter(|&i| self.role[i] != Role::Absent) {
+            self.settled &= !moved(i) && self.load.q[i] == problem.q()[i];
+            self.z[i] *= self.scaling.d[i] / scaling.d[i];
+        }
+        let scaled = scaling.d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
+        self.load = Arc::new(Load { q: problem.q().to_vec(), scaled });
+        (self.problem, self.scaling, self.m, self.driven) = (problem, scaling, Arc::new(m), None);
+        leaving.into_iter().for_each(|i| self.come_back(i));
+        self.measure_q();
+        // Where something has changed the next solve computes w; else it is what it was.
+        Ok(stayed)
+    }
+
+    /// Takes active rows out of the factor, and leaves everything else as it is.
+    fn take_out(&mut self, rows: &[usize]) {
+        for &row in rows {
+            self.counts.factor_rows += 1;
+            self.factor.remove(row);
+        }
     }
 
     /// The new number of every old row, if it has one.
@@ -109,18 +153,8 @@ impl Solver {
         Ok(())
     }
 
-    /// The factor for the new matrix, and whether it still holds the rows that stayed.
-    fn carried_factor(
-        &mut self,
-        m: &SparseColumns,
-        origins: &[Origin],
-        place: &[Option<usize>],
-    ) -> (Box<dyn ActiveFactor>, bool) {
-        let in_place = place.len() == origins.len() && place.iter().enumerate().all(|(i, &new)| new == Some(i));
-        if in_place && m.same_pattern(&self.m) {
-            let empty = Box::new(factor::DenseFactor::new(0));
-            return (std::mem::replace(&mut self.factor, empty), true);
-        }
+    /// The factor for a matrix of another pattern, and whether it still holds the rows that stayed.
+    fn carried_factor(&self, m: &SparseColumns, place: &[Option<usize>]) -> (Box<dyn ActiveFactor>, bool) {
         let chosen = factor::choose(m);
         let dense = chosen.renumbered(0, &[]).is_some();
         match self.factor.renumbered(m.len(), place).filter(|_| dense) {

@@ -60,7 +60,7 @@ impl Solver {
         if self.active_residual() > ROUNDING * self.own_scale() && !self.settle_active() {
             return Checked::LostAccuracy;
         }
-        self.residual = self.present_residual();
+        self.residual = self.residual_of_w();
         if self.most_violated().is_some_and(|i| !self.active.contains(i)) {
             Checked::StillViolated
         } else if self.residual <= self.settings.residual {
@@ -165,6 +165,11 @@ impl Solver {
     /// `max |min(z, w)|` over the present rows, in the problem's own scale, from a fresh `w = M z + q`.
     pub(super) fn present_residual(&mut self) -> f64 {
         self.recompute_w();
+        self.residual_of_w()
+    }
+
+    /// The same from the present `w`, which has just been computed from `z`.
+    fn residual_of_w(&self) -> f64 {
         let worst = (0..self.z.len())
             .filter(|&i| self.role[i] != Role::Absent)
             .map(|i| self.z[i].min(self.w[i]).abs())
