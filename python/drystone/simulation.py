@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from drystone.viewer import Page
+
 REUSE = ("full", "motionless", "none")
 """What a step may take over from the one before it: see `simulate`."""
 
@@ -174,6 +176,37 @@ class Run:
                 for name, pose in zip(self.names, self.poses[-1], strict=True)
             },
         }
+
+    def view(self) -> Page:
+        """A page that plays the run; with the contact forces if `forces=True` recorded them.
+
+        >>> import drystone as ds
+        >>> ds.simulate(ds.scenes.fall7(), steps=60, forces=True).view()
+        <Page: run, 61 frames of 8 bodies>
+        """
+        import numpy as np
+
+        from drystone.viewer import FrameForces, run_page
+
+        forces = None
+        if len(self.force_starts) == self.steps + 1 and self.steps > 0:
+            # The beginning has no forces of its own: it shows those of the first step.
+            first = self.force_starts[1]
+            twice = [
+                np.concatenate([values[:first], values])
+                for values in (self.force_bodies, self.force_points, self.forces)
+            ]
+            forces = FrameForces(np.concatenate([[0], self.force_starts + first]), *twice)
+        times = self.dt * np.arange(self.steps + 1)
+        return run_page(
+            self.scene,
+            times,
+            self.poses,
+            self.motionless if self.steps else np.ones((1, len(self.names)), dtype=bool),
+            self.pivots,
+            self.solve_seconds,
+            forces,
+        )
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the run as a compressed NumPy archive (.npz), whole or not at all."""

@@ -200,9 +200,18 @@ def test_the_command_line(cli: Cli, tmp_path: Path) -> None:
     assert answer["moving"] == ["6", "7"]
 
 
+def test_a_page_plays_the_run(run: ds.Run, cli: Cli, tmp_path: Path) -> None:
+    assert repr(run.view()) == "<Page: run, 201 frames of 8 bodies>"
+    still = ds.simulate(ds.scenes.column(3), steps=0)
+    assert "of 3 bodies" in repr(still.view())
+    ran = cli("simulate", "fall7", "--steps", "30", "-o", tmp_path / "run.html")
+    assert ran.status == 0
+    assert (tmp_path / "run.html").read_text().startswith("<!doctype html>")
+
+
 def test_the_command_line_refuses(cli: Cli, tmp_path: Path) -> None:
     for arguments, message in (
-        (["col20", "-o", tmp_path / "run.txt"], "ends in .npz"),
+        (["col20", "-o", tmp_path / "run.txt"], "a page's in .html"),
         (["col20", "--dt", "0"], "dt is 0"),
         (["col20", "-o", tmp_path / "nowhere" / "run.npz", "--steps", "1"], "nowhere"),
     ):

@@ -158,7 +158,8 @@ def simulate(
     ] = False,
     as_json: AsJson = False,
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Write the run, .npz.")
+        Path | None,
+        typer.Option("-o", "--output", help="Write the run, .npz, or a page that plays it, .html."),
     ] = None,
 ) -> int:
     """How does it move? From rest, step by step, with exact contact and friction."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import load_scene, reporting_files
+from drystone.cli.inputs import load_scene, page_path, reporting_files
 from drystone.progress import RunProgress
 from drystone.simulation import Run, simulate
 
@@ -28,8 +28,9 @@ def run(
     output: Path | None,
 ) -> int:
     """0 if every step was made, 1 if one could not be, 130 after Ctrl-C."""
-    if output is not None and output.suffix.lower() != ".npz":
-        raise InputError(f"{output}: a run's name ends in .npz")
+    if output is not None and output.suffix.lower() != ".npz" and not page_path(output):
+        raise InputError(f"{output}: a run's name ends in .npz, a page's in .html")
+    forces = forces or page_path(output)
     scene = load_scene(scene_name)
     with RunProgress() as progress:
         made = simulate(
@@ -37,7 +38,7 @@ def run(
         )
     if output is not None:
         with reporting_files():
-            made.save(output)
+            (made.view() if page_path(output) else made).save(output)
     if as_json:
         print(json.dumps(made.to_dict(), indent=2))
     else:
@@ -53,7 +54,7 @@ def _print(made: Run, output: Path | None) -> None:
     if made.steps:
         console.print(_facts(made))
     if output is not None:
-        console.print(f"run: {output}")
+        console.print(f"{'page' if page_path(output) else 'run'}: {output}")
 
 
 def _facts(made: Run) -> Table:
