@@ -65,7 +65,7 @@ class Plan:
     records: tuple[TestRecord, ...]
     """One entry a test, in order."""
     shortcuts: int
-    """Sub-assemblies known to fall without a test, by a collapse that an earlier test found."""
+    """Sub-assemblies known to fall or to lead nowhere without a test, by collapses found before."""
     whole: Verdict | None
     """The verdict on the complete assembly, which is checked first and counted apart."""
     test: str
@@ -166,9 +166,9 @@ def plan(
     (Ctrl-C) is a status of the plan, which then holds the best so far.
 
     A test of the core that finds a sub-assembly to fall also finds how. With `shortcuts` that
-    motion answers later tests it still applies to, and tells which blocks to take back where none
-    can be added; the order found is the same. Without, every sub-assembly visited is tested, as
-    in the paper.
+    motion answers later tests it still applies to, and tells which blocks wait for one another in
+    vain and how many to take back then; the order found is the same. Without, every sub-assembly
+    visited is tested, as in the paper.
 
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found

@@ -97,6 +97,20 @@ fn reuse_saves_thirty_fold_on_a_random_structure() {
     }
 }
 
+/// Stacks on which a search that steps back one reason at a time makes more than 100,000 tests: some overhanging part
+/// waits for its counterweight while all else is put up and taken down around it. Its collapses say at once that
+/// it waits in vain. The bounds are a third above what it takes.
+#[test]
+fn what_waits_in_vain_is_noticed_early() {
+    for (blocks, seed, most) in [(120, 24, 650), (200, 6, 1600), (250, 9, 500)] {
+        let scene = scenes::random_stack(blocks, seed, 0.0).unwrap();
+        let limits = Limits { tests: Some(most), ..Limits::default() };
+        let plan = plan(&scene, Test::Reuse, limits, &mut Quiet).unwrap();
+        assert_eq!(plan.outcome, Outcome::Found, "{blocks}, {seed}");
+        verify(&scene, &plan);
+    }
+}
+
 /// A scene of only some of the movable bodies, and all fixed ones.
 fn without_the_others(scene: &Scene, keep: &[usize]) -> Scene {
     let mut part = Scene::new(scene.gravity(), scene.friction()).unwrap();

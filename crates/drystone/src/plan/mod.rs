@@ -5,11 +5,21 @@
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
 mod collapse;
+mod dead_end;
 mod graph;
+mod learned;
+#[cfg(test)]
+mod lemma_tests;
+mod memory;
+mod nogood;
+mod outcome;
 mod search;
 mod stability;
+mod touching;
+mod visited;
 
 pub use collapse::Collapse;
 pub use graph::{GraphNode, disassembly_graph};
-pub use search::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord, plan, plan_with};
+pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord};
+pub use search::{plan, plan_with};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

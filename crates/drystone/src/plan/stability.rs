@@ -52,6 +52,11 @@ pub trait StabilityTest {
     /// [`PlanError`] if no answer can be given.
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError>;
 
+    /// Whether this test finds a collapse motion of what falls.
+    fn explains(&self) -> bool {
+        false
+    }
+
     /// The collapse motion of the sub-assembly just tested, which falls, if this test finds one.
     fn collapse(&self) -> Option<Collapse> {
         None
@@ -124,6 +129,10 @@ impl StabilityTest for FromScratch<'_> {
         solve(self.assembly, &mut self.solver, blocks)
     }
 
+    fn explains(&self) -> bool {
+        true
+    }
+
     fn collapse(&self) -> Option<Collapse> {
         Some(collapse_of(self.assembly, &self.solver, &self.tested))
     }
@@ -182,6 +191,10 @@ impl StabilityTest for Reuse {
         Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
     }
 
+    fn explains(&self) -> bool {
+        true
+    }
+
     /// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y.
     fn collapse(&self) -> Option<Collapse> {
         let mut moving: Vec<(usize, f64)> = Vec::new();
@@ -238,6 +251,10 @@ impl StabilityTest for ReuseDantzig<'_> {
         self.solver.add_rows(&self.assembly.rows_added(blocks, added)).expect("rows of this assembly's problem");
         self.tested.clone_from(blocks);
         solve(self.assembly, &mut self.solver, blocks)
+    }
+
+    fn explains(&self) -> bool {
+        true
     }
 
     fn collapse(&self) -> Option<Collapse> {
