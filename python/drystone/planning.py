@@ -24,7 +24,8 @@ ENDINGS = {
 """What a plan's status says when there is no order."""
 
 Progress = Callable[[int, int, int], None]
-"""Called with (tests done, blocks placed, blocks in all) a few times a second."""
+"""Called with (tests done, blocks placed, blocks in all) a few times a second. Before the first
+test the complete assembly is checked, block by block: blocks placed are that check's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,8 @@ class Plan:
     shortcuts: int
     """Sub-assemblies known to fall or to lead nowhere without a test, by collapses found before."""
     whole: Verdict | None
-    """The verdict on the complete assembly, which is checked first and counted apart."""
+    """The verdict on the complete assembly, which is checked first and counted apart; None if a
+    limit or an interrupt came before there was one."""
     test: str
     """The stability test used."""
     scene: Scene = field(repr=False)

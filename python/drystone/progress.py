@@ -35,7 +35,8 @@ class PlanProgress:
                 return
             self._bar, self._task = _shown(self._label, total)
         if self._task is not None:
-            self._bar.update(self._task, completed=placed, tests=tests)
+            label = self._label if tests else "checking the whole"
+            self._bar.update(self._task, description=label, completed=placed, tests=tests)
 
     def __enter__(self) -> PlanProgress:
         return self

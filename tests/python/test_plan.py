@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import _thread
+import threading
+
 import numpy as np
 import pytest
 
@@ -116,7 +119,8 @@ def test_limits_hand_back_the_best_so_far() -> None:
     assert 0 < len(few.reached) <= 5
     assert ds.check(scene, few.reached).stable
     brief = ds.plan(scene, time_limit=0.0)
-    assert (brief.status, brief.found) == ("time_limit", False)
+    assert (brief.status, brief.found, brief.whole) == ("time_limit", False, None)
+    assert "the time was up" in str(brief)
 
 
 def test_progress_is_told() -> None:
@@ -142,6 +146,33 @@ def test_an_interrupt_is_a_status() -> None:
     except KeyboardInterrupt:
         pytest.fail("the best so far was lost")
     assert (plan.status, plan.found) == ("interrupted", False)
+
+
+def falls_slowly() -> ds.Scene:
+    """A structure that falls, and whose check takes most of a second."""
+    return ds.scenes.diamond(20)
+
+
+def test_the_check_of_the_whole_tells_and_can_be_stopped() -> None:
+    calls: list[tuple[int, int, int]] = []
+    plan = ds.plan(falls_slowly(), time_limit=0.2, progress=lambda *told: calls.append(told))
+    assert (plan.status, plan.whole, plan.tests) == ("time_limit", None, 0)
+    assert calls
+    assert all(tests == 0 and placed <= total for tests, placed, total in calls)
+
+    def interrupt(tests: int, placed: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    plan = ds.plan(falls_slowly(), progress=interrupt)
+    assert (plan.status, plan.whole) == ("interrupted", None)
+
+
+def test_an_interrupt_stops_a_check() -> None:
+    timer = threading.Timer(0.2, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ds.check(falls_slowly())
+    timer.join()
 
 
 def test_an_error_in_progress_reaches_the_caller() -> None:

@@ -2,7 +2,7 @@
 
 use drystone::formulate::{Assembly, BlockSet, Generator};
 use drystone::plan::{
-    FromScratch, Limits, Monitor, Outcome, Plan, Progress, Quiet, Reuse, ReuseDantzig, StabilityTest, Test,
+    FromScratch, Limits, Monitor, Outcome, Plan, Progress, Quiet, Reuse, ReuseDantzig, StabilityTest, Stage, Test,
     TestOutcome, disassembly_graph, plan,
 };
 use drystone::{BodyOptions, Scene, Verdict, check::check_blocks, scenes};
@@ -374,7 +374,7 @@ fn no_order_says_how_far_one_gets_and_what_falls_next() {
     for test in TESTS {
         let scene = orderless(0);
         let plan = planned(&scene, test);
-        assert!(plan.whole.stable);
+        assert!(plan.whole.is_some_and(|whole| whole.stable));
         assert_eq!(plan.outcome, Outcome::NoOrder);
         assert_eq!(plan.order, [0; 0]);
         assert_eq!(plan.reached, [scene.index_of("pier").unwrap()]);
@@ -387,7 +387,7 @@ fn what_falls_as_a_whole_is_not_searched() {
     let scene = scenes::diamond(5, 0.0).unwrap();
     let plan = planned(&scene, Test::Reuse);
     assert_eq!((plan.outcome, plan.records.len()), (Outcome::WholeFalls, 0));
-    assert!(!plan.whole.stable && !plan.whole.falling.is_empty());
+    assert!(plan.whole.is_some_and(|whole| !whole.stable && !whole.falling.is_empty()));
     assert!(plan.order.is_empty() && plan.reached.is_empty() && plan.falls_next.is_empty());
 }
 
@@ -420,6 +420,9 @@ struct Stop {
 
 impl Monitor for Stop {
     fn go_on(&mut self, progress: Progress) -> bool {
+        if progress.stage == Stage::Whole {
+            return true;
+        }
         self.told.push(progress);
         progress.tests < self.after
     }
@@ -437,12 +440,37 @@ fn a_monitor_is_told_before_every_test_and_can_stop_the_search() {
     assert_eq!(stop.told.len(), 8);
 }
 
+/// Stops the check of the whole at its nth question.
+struct StopWhole(usize);
+
+impl Monitor for StopWhole {
+    fn go_on(&mut self, progress: Progress) -> bool {
+        assert_eq!((progress.stage, progress.tests), (Stage::Whole, 0), "stopped before the search");
+        self.0 -= 1;
+        self.0 > 0
+    }
+}
+
+/// A monitor is asked for every block, and while accelerations are looked for: a diamond of 5 takes dozens of pivots.
+#[test]
+fn the_check_of_the_whole_can_be_stopped() {
+    for (scene, after) in [(orderless(8), 5), (scenes::diamond(5, 0.0).unwrap(), 40)] {
+        let plan = plan(&scene, Test::Reuse, Limits::default(), &mut StopWhole(after)).unwrap();
+        assert_eq!((plan.outcome, plan.records.len(), plan.whole.is_none()), (Outcome::Interrupted, 0, true));
+        let time = Limits { time: Some(Duration::ZERO), ..Limits::default() };
+        let plan = drystone::plan::plan(&scene, Test::Reuse, time, &mut Quiet).unwrap();
+        assert_eq!((plan.outcome, plan.whole.is_none()), (Outcome::TimeLimit, true));
+    }
+}
+
 /// Everything but the clock.
 fn timeless(plan: &Plan) -> impl PartialEq + std::fmt::Debug + '_ {
     let records: Vec<(usize, TestOutcome)> = plan.records.iter().map(|record| (record.size, record.outcome)).collect();
     let bits = |accelerations: &[[f64; 3]]| accelerations.iter().map(|a| a.map(f64::to_bits)).collect::<Vec<_>>();
-    let forces: Vec<_> = plan.whole.forces.iter().map(|(_, force)| force.force.map(f64::to_bits)).collect();
-    (plan.outcome, &plan.order, &plan.reached, records, bits(&plan.whole.accelerations), forces)
+    let forces: Vec<_> =
+        plan.whole.iter().flat_map(|whole| &whole.forces).map(|(_, force)| force.force.map(f64::to_bits)).collect();
+    let accelerations = plan.whole.as_ref().map(|whole| bits(&whole.accelerations));
+    (plan.outcome, &plan.order, &plan.reached, records, accelerations, forces)
 }
 
 #[test]

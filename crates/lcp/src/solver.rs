@@ -118,6 +118,8 @@ enum Cycle {
     Ray,
     Limit,
     LostAccuracy,
+    /// The caller asked to stop before it began.
+    Stopped,
 }
 
 /// What a recomputation of `z` and `w` from the factor found.
@@ -350,15 +352,23 @@ impl Solver {
     /// # Errors
     /// [`LcpError::NotSemidefinite`] if a direction of negative curvature shows up.
     pub fn solve(&mut self) -> Result<Status, LcpError> {
+        Ok(self.solve_while(&mut || true)?.expect("nobody stops it"))
+    }
+
+    /// The same, but asks before every major cycle whether to go on. None if not; the next solve goes on from there.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_while(&mut self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         self.counts_at_solve = self.counts;
         self.ray = None;
-        let answer = self.solve_present();
+        let answer = self.solve_present(go_on);
         // Without an answer the row driven last has both z > 0 and w < 0.
-        self.settled = answer == Ok(Status::Solved);
+        self.settled = answer == Ok(Some(Status::Solved));
         answer
     }
 
-    fn solve_present(&mut self) -> Result<Status, LcpError> {
+    fn solve_present(&mut self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
         let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
         let mut rounds = 0;
@@ -367,25 +377,26 @@ impl Solver {
             if !self.settled {
                 self.settle();
             }
-            match self.drive_all(limit)? {
+            match self.drive_all(limit, go_on)? {
                 Cycle::Feasible => match self.recompute() {
-                    Checked::Solved => return Ok(Status::Solved),
+                    Checked::Solved => return Ok(Some(Status::Solved)),
                     Checked::StillViolated if rounds < ROUNDS => {
                         rounds += 1;
                         continue;
                     }
                     Checked::StillViolated | Checked::LostAccuracy => rounds = 0,
                 },
-                Cycle::Ray => return Ok(Status::NoSolution),
+                Cycle::Ray => return Ok(Some(Status::NoSolution)),
                 Cycle::Limit => {
                     self.residual = self.present_residual();
-                    return Ok(Status::PivotLimit);
+                    return Ok(Some(Status::PivotLimit));
                 }
+                Cycle::Stopped => return Ok(None),
                 Cycle::LostAccuracy => {}
             }
             let Some(repair) = repairs.next() else {
                 self.residual = self.present_residual();
-                return Ok(Status::NumericalTrouble);
+                return Ok(Some(Status::NumericalTrouble));
             };
             self.settled = false;
             repair(self);

@@ -8,6 +8,7 @@ mod plan;
 mod scene;
 mod structure;
 mod verdict;
+mod watch;
 
 use pyo3::prelude::*;
 

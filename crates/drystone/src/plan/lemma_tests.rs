@@ -4,7 +4,7 @@ use super::learned::{Bounds, Learned};
 use super::memory::{Back, Memory, Place};
 use super::nogood::Nogood;
 use super::outcome::{Limits, Outcome, Quiet};
-use super::search::Search;
+use super::search::{Clock, Search};
 use super::stability::Reuse;
 use super::touching::Touching;
 use super::visited::Visited;
@@ -104,8 +104,10 @@ fn growable(assembly: &Assembly) -> Vec<bool> {
 
 fn searched(assembly: &Assembly, memory: &mut dyn Memory) -> (Outcome, Vec<usize>, usize) {
     let touching = Touching::new(assembly);
-    let mut search = Search::new(&touching, memory, Limits { tests: Some(5000), ..Limits::default() }, Instant::now());
-    let outcome = search.run(&mut Reuse::new(assembly), &mut Quiet).unwrap();
+    let limits = Limits { tests: Some(5000), ..Limits::default() };
+    let mut clock = Clock { limits, start: Instant::now(), monitor: &mut Quiet };
+    let mut search = Search::new(&touching, memory);
+    let outcome = search.run(&mut Reuse::new(assembly), &mut clock).unwrap();
     let order = if outcome == Outcome::Found { search.placed().to_vec() } else { Vec::new() };
     (outcome, order, search.tests())
 }

@@ -20,6 +20,6 @@ mod visited;
 
 pub use collapse::Collapse;
 pub use graph::{GraphNode, disassembly_graph};
-pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord};
+pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
 pub use search::{plan, plan_with};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

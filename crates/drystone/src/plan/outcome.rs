@@ -54,9 +54,20 @@ impl Outcome {
     }
 }
 
+/// What is being done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// The complete assembly is checked, put up block by block.
+    Whole,
+    /// Sub-assemblies are tested.
+    Search,
+}
+
 /// How far a search has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
     /// Stability tests done.
     pub tests: usize,
     /// Blocks of the current sub-assembly.
@@ -67,7 +78,8 @@ pub struct Progress {
 
 /// Watches a search, and may stop it.
 pub trait Monitor {
-    /// Called before every test. False stops the search.
+    /// Called before every test, and for every block and every major cycle of the check of the whole. False stops the
+    /// search.
     fn go_on(&mut self, progress: Progress) -> bool;
 }
 
@@ -112,8 +124,8 @@ pub struct Plan {
     pub setup: Duration,
     /// Time of everything, contacts included.
     pub total: Duration,
-    /// Verdict on the complete assembly, reported apart from the tests.
-    pub whole: Verdict,
+    /// Verdict on the complete assembly, reported apart from the tests. None if the search was stopped before there was one.
+    pub whole: Option<Verdict>,
     /// Time of that check.
     pub whole_time: Duration,
 }

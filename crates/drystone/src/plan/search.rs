@@ -3,12 +3,12 @@
 use super::dead_end::dead_end;
 use super::learned::{Bounds, Learned};
 use super::memory::{Back, Memory, Place};
-use super::outcome::{Limits, Monitor, Outcome, Plan, Progress, TestRecord};
+use super::outcome::{Limits, Monitor, Outcome, Plan, Progress, Stage, TestRecord};
 use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test};
 use super::touching::Touching;
 use super::visited::Visited;
 use crate::{
-    check::check_blocks,
+    check::{Verdict, check_blocks_while},
     formulate::{Assembly, BlockSet},
     scene::Scene,
 };
@@ -44,19 +44,22 @@ pub fn plan_with(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
-    let start = Instant::now();
-    let whole = check_blocks(assembly, &BlockSet::full(assembly.blocks()));
-    let whole_time = start.elapsed();
+    let mut clock = Clock { limits, start: Instant::now(), monitor };
+    let whole = check_whole(assembly, &mut clock);
+    let whole_time = clock.start.elapsed();
     let touching = Touching::new(assembly);
     let mut memory: Box<dyn Memory + '_> = match limits.shortcuts && test.explains() {
         true => Box::new(Learned::new(&touching, Bounds::default())),
         false => Box::new(Visited::default()),
     };
-    let mut search = Search::new(&touching, memory.as_mut(), limits, start);
-    let outcome = match whole.stable.then(|| search.run(test, monitor)) {
-        None => Outcome::WholeFalls,
-        Some(Err(PlanError::Interrupted)) => Outcome::Interrupted,
-        Some(ended) => ended?,
+    let mut search = Search::new(&touching, memory.as_mut());
+    let outcome = match &whole {
+        Err(stopped) => *stopped,
+        Ok(whole) if !whole.stable => Outcome::WholeFalls,
+        Ok(_) => match search.run(test, &mut clock) {
+            Err(PlanError::Interrupted) => Outcome::Interrupted,
+            ended => ended?,
+        },
     };
     let Search { best: mut reached, records, .. } = search;
     let falls_next = match outcome {
@@ -72,18 +75,49 @@ pub fn plan_with(
         records,
         shortcuts: memory.shortcuts(),
         setup: Duration::ZERO,
-        total: start.elapsed(),
-        whole,
+        total: clock.start.elapsed(),
+        whole: whole.ok(),
         whole_time,
     })
+}
+
+/// The verdict on the complete assembly, or why it was not waited for.
+fn check_whole(assembly: &Assembly, clock: &mut Clock<'_>) -> Result<Verdict, Outcome> {
+    let blocks = assembly.blocks();
+    let mut stopped = Outcome::Interrupted;
+    let mut go_on = |placed| match clock.stops(Progress { stage: Stage::Whole, tests: 0, placed, blocks }) {
+        None => true,
+        Some(outcome) => {
+            stopped = outcome;
+            false
+        }
+    };
+    check_blocks_while(assembly, &BlockSet::full(blocks), &mut go_on).ok_or(stopped)
+}
+
+/// Says when a search has to end.
+pub(super) struct Clock<'a> {
+    pub limits: Limits,
+    pub start: Instant,
+    pub monitor: &'a mut dyn Monitor,
+}
+
+impl Clock<'_> {
+    fn stops(&mut self, progress: Progress) -> Option<Outcome> {
+        if progress.stage == Stage::Search && self.limits.tests.is_some_and(|limit| progress.tests >= limit) {
+            Some(Outcome::TestLimit)
+        } else if self.limits.time.is_some_and(|limit| self.start.elapsed() >= limit) {
+            Some(Outcome::TimeLimit)
+        } else {
+            (!self.monitor.go_on(progress)).then_some(Outcome::Interrupted)
+        }
+    }
 }
 
 /// A search under way.
 pub(super) struct Search<'a> {
     touching: &'a Touching,
     memory: &'a mut dyn Memory,
-    limits: Limits,
-    start: Instant,
     current: BlockSet,
     placed: Vec<usize>,
     /// Of each placed block, in `placed`.
@@ -95,12 +129,10 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub fn new(touching: &'a Touching, memory: &'a mut dyn Memory, limits: Limits, start: Instant) -> Self {
+    pub fn new(touching: &'a Touching, memory: &'a mut dyn Memory) -> Self {
         Self {
             touching,
             memory,
-            limits,
-            start,
             current: BlockSet::empty(touching.blocks()),
             placed: Vec::new(),
             position: vec![0; touching.blocks()],
@@ -111,7 +143,7 @@ impl<'a> Search<'a> {
     }
 
     /// Grows the current sub-assembly by the first candidate that stands, and steps back where none does.
-    pub fn run(&mut self, test: &mut dyn StabilityTest, monitor: &mut dyn Monitor) -> Result<Outcome, PlanError> {
+    pub fn run(&mut self, test: &mut dyn StabilityTest, clock: &mut Clock<'_>) -> Result<Outcome, PlanError> {
         let blocks = self.touching.blocks();
         while self.placed.len() < blocks {
             let Some(added) = self.next_candidate() else {
@@ -124,8 +156,8 @@ impl<'a> Search<'a> {
             let last = self.placed.len() + 1 == blocks; // the complete assembly, checked first
             let known = !last && self.knows(added);
             if !last && !known {
-                let progress = Progress { tests: self.records.len(), placed: self.placed.len(), blocks };
-                if let Some(outcome) = self.spent(monitor, progress) {
+                let (tests, placed) = (self.records.len(), self.placed.len());
+                if let Some(outcome) = clock.stops(Progress { stage: Stage::Search, tests, placed, blocks }) {
                     return Ok(outcome);
                 }
             }
@@ -207,16 +239,6 @@ impl<'a> Search<'a> {
                 test.backtrack();
             }
             self.tried.truncate(keep + 1);
-        }
-    }
-
-    fn spent(&self, monitor: &mut dyn Monitor, progress: Progress) -> Option<Outcome> {
-        if self.limits.tests.is_some_and(|limit| progress.tests >= limit) {
-            Some(Outcome::TestLimit)
-        } else if self.limits.time.is_some_and(|limit| self.start.elapsed() >= limit) {
-            Some(Outcome::TimeLimit)
-        } else {
-            (!monitor.go_on(progress)).then_some(Outcome::Interrupted)
         }
     }
 }
