@@ -153,17 +153,23 @@ def falls_slowly() -> ds.Scene:
     return ds.scenes.diamond(20)
 
 
-def test_the_check_of_the_whole_tells_and_can_be_stopped() -> None:
-    calls: list[tuple[int, int, int]] = []
-    plan = ds.plan(falls_slowly(), time_limit=0.2, progress=lambda *told: calls.append(told))
-    assert (plan.status, plan.whole, plan.tests) == ("time_limit", None, 0)
-    assert calls
-    assert all(tests == 0 and placed <= total for tests, placed, total in calls)
+@pytest.mark.parametrize("threads", [1, 2])
+def test_the_check_of_the_whole_tells_and_can_be_stopped(threads: int) -> None:
+    calls: list[tuple[int, ...]] = []
 
-    def interrupt(tests: int, placed: int, total: int) -> None:
+    def note(*told: int) -> None:
+        calls.append(told)
+
+    plan = ds.plan(falls_slowly(), time_limit=0.2, progress=note, threads=threads)
+    assert (plan.status, plan.whole) == ("time_limit", None)
+    assert (threads == 1) == (plan.tests == 0)  # on two, the search has begun
+    assert calls
+    assert all(0 <= placed <= total for _, placed, total in calls)
+
+    def interrupt(*told: int) -> None:
         raise KeyboardInterrupt
 
-    plan = ds.plan(falls_slowly(), progress=interrupt)
+    plan = ds.plan(falls_slowly(), progress=interrupt, threads=threads)
     assert (plan.status, plan.whole) == ("interrupted", None)
 
 
@@ -188,6 +194,26 @@ def test_the_same_plan_again() -> None:
     first, again = ds.plan(scene), ds.plan(scene)
     assert first.order == again.order
     assert [r.pivots for r in first.records] == [r.pivots for r in again.records]
+
+
+@pytest.mark.parametrize("test", ["reuse", "reuse-dantzig", "lcp"])
+def test_the_same_plan_on_any_number_of_threads(test: str) -> None:
+    for scene in (ds.scenes.random_stack(60, seed=4), orderless(30), ds.scenes.column(220)):
+        plans = [ds.plan(scene, test, node_limit=150, threads=threads) for threads in (1, 2, 8)]
+        for plan in plans[1:]:
+            assert (plan.status, plan.order, plan.reached) == (
+                plans[0].status,
+                plans[0].order,
+                plans[0].reached,
+            )
+            assert [(r.size, r.pivots, r.stable) for r in plan.records] == [
+                (r.size, r.pivots, r.stable) for r in plans[0].records
+            ]
+
+
+def test_no_thread_is_an_error(block: ds.Scene) -> None:
+    with pytest.raises(ValueError, match="threads is 0: it must be one or more"):
+        ds.plan(block, threads=0)
 
 
 def test_an_unknown_test_is_an_error(block: ds.Scene) -> None:

@@ -9,8 +9,24 @@ use drystone::{BodyOptions, Scene, Verdict, check::check_blocks, scenes};
 use drystone_lcp::{Settings, Solver, Start, Status};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::time::Duration;
+
+/// Stacks of which some fall, some stand without an order, and some can be taken apart.
+fn mixed(count: u64) -> impl Iterator<Item = Scene> {
+    (0..count).filter_map(|seed| {
+        let (blocks, friction) = (4 + seed as usize % 30, if seed % 3 == 0 { 0.4 } else { 0.0 });
+        match seed % 4 {
+            0 => scenes::random_stack(blocks, seed, friction).ok(),
+            1 => scenes::random_stack_where(blocks.min(10), seed, friction, |_| true).ok(),
+            _ => {
+                let blocks = 4 + blocks % 6;
+                let whole = |scene: &Scene| scene.bodies().len() <= blocks || drystone::check::stands(scene).unwrap();
+                scenes::random_stack_where(blocks, seed, friction, whole).ok()
+            }
+        }
+    })
+}
 
 /// This crate's stability tests.
 const TESTS: [Test; 3] = [Test::Lcp, Test::Reuse, Test::ReuseDantzig];
@@ -470,7 +486,31 @@ fn timeless(plan: &Plan) -> impl PartialEq + std::fmt::Debug + '_ {
     let forces: Vec<_> =
         plan.whole.iter().flat_map(|whole| &whole.forces).map(|(_, force)| force.force.map(f64::to_bits)).collect();
     let accelerations = plan.whole.as_ref().map(|whole| bits(&whole.accelerations));
-    (plan.outcome, &plan.order, &plan.reached, records, accelerations, forces)
+    let ends = (plan.outcome, &plan.order, &plan.reached, &plan.falls_next, plan.shortcuts);
+    (ends, records, accelerations, forces)
+}
+
+#[test]
+fn the_plan_is_the_same_on_any_number_of_threads() {
+    let mut ends: HashMap<Outcome, usize> = HashMap::new();
+    let large = [(220, 3), (230, 4), (250, 9)].map(|(blocks, seed)| scenes::random_stack(blocks, seed, 0.0).unwrap());
+    let checked_beside = large.into_iter().chain([scenes::diamond(15, 0.0).unwrap(), orderless(220)]);
+    for scene in mixed(300).chain(varied()).chain(checked_beside) {
+        for test in TESTS {
+            let on = |threads| {
+                let limits = Limits { tests: Some(400), threads: Some(threads), ..Limits::default() };
+                plan(&scene, test, limits, &mut Quiet).unwrap()
+            };
+            let alone = on(1);
+            for threads in [2, 8] {
+                assert_eq!(timeless(&on(threads)), timeless(&alone), "{test:?} on {threads} threads");
+            }
+            *ends.entry(alone.outcome).or_default() += 1;
+        }
+    }
+    for outcome in [Outcome::Found, Outcome::NoOrder, Outcome::WholeFalls] {
+        assert!(ends.get(&outcome).is_some_and(|&count| count > 20), "{ends:?}");
+    }
 }
 
 #[test]

@@ -102,7 +102,8 @@ impl StabilityTest for Callback {
 }
 
 #[pyfunction]
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true))]
+#[allow(clippy::too_many_arguments)] // those of the Python function
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -111,10 +112,11 @@ pub fn plan(
     time_limit: Option<f64>,
     progress: Option<Py<PyAny>>,
     shortcuts: bool,
+    threads: Option<usize>,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
-    let limits = Limits { tests: node_limit, time, shortcuts };
+    let limits = Limits { tests: node_limit, time, shortcuts, threads };
     let mut watch = Watch::new(progress);
     let scene = &scene.core;
     let planned = if test.is_callable() {

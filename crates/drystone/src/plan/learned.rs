@@ -156,6 +156,10 @@ impl<'a> Learned<'a> {
 }
 
 impl Memory for Learned<'_> {
+    fn is_lost(&self, set: &BlockSet, added: usize) -> bool {
+        self.nogoods[added].iter().any(|nogood| nogood.covers(set))
+    }
+
     fn knows(&mut self, place: &Place<'_>, added: usize) -> bool {
         let list = &mut self.nogoods[added];
         let Some(found) = list.iter().position(|nogood| nogood.covers(place.current)) else { return false };

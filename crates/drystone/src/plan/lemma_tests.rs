@@ -14,7 +14,7 @@ use crate::{
     formulate::{Assembly, BlockSet},
     scenes::{random_stack, random_stack_where},
 };
-use std::time::Instant;
+use std::{sync::atomic::AtomicBool, time::Instant};
 
 const AT_ONCE: Bounds = Bounds { patience: 0, for_a_block: 64, numbers: 1 << 20 };
 
@@ -63,6 +63,10 @@ impl Watched<'_> {
 }
 
 impl Memory for Watched<'_> {
+    fn is_lost(&self, set: &BlockSet, added: usize) -> bool {
+        self.learned.is_lost(set, added)
+    }
+
     fn knows(&mut self, place: &Place<'_>, added: usize) -> bool {
         let known = self.learned.knows(place, added);
         assert!(!(known && self.grows[bits(place.current)]), "{:?} can be grown to the whole", place.current);
@@ -105,11 +109,11 @@ fn growable(assembly: &Assembly) -> Vec<bool> {
 fn searched(assembly: &Assembly, memory: &mut dyn Memory) -> (Outcome, Vec<usize>, usize) {
     let touching = Touching::new(assembly);
     let limits = Limits { tests: Some(5000), ..Limits::default() };
-    let mut clock = Clock { limits, start: Instant::now(), monitor: &mut Quiet };
+    let mut clock = Clock { limits, start: Instant::now(), monitor: &mut Quiet, whole_falls: &AtomicBool::new(false) };
     let mut search = Search::new(&touching, memory);
     let outcome = search.run(&mut Reuse::new(assembly), &mut clock).unwrap();
     let order = if outcome == Outcome::Found { search.placed().to_vec() } else { Vec::new() };
-    (outcome, order, search.tests())
+    (outcome, order, search.records.len())
 }
 
 #[test]

@@ -26,7 +26,10 @@ pub(super) enum Back {
 /// Knowledge of sub-assemblies that are *lost*: they fall, or cannot be grown to the whole. It must never call one lost
 /// that is not, so that every memory leads a search to the same order.
 pub(super) trait Memory {
-    /// Whether `place.current`, which holds `added` on top, is known to be lost.
+    /// Whether a sub-assembly with `added` on top is known to be lost.
+    fn is_lost(&self, set: &BlockSet, added: usize) -> bool;
+
+    /// The same of `place.current`, where the search now is.
     fn knows(&mut self, place: &Place<'_>, added: usize) -> bool;
 
     /// `place.current`, which holds `added` on top, was tested and falls.

@@ -4,6 +4,7 @@
 //! nodes from the bare supports to the whole, read backwards, is a stable disassembly order. The search is
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
+mod ahead;
 mod collapse;
 mod dead_end;
 mod graph;
@@ -13,13 +14,16 @@ mod lemma_tests;
 mod memory;
 mod nogood;
 mod outcome;
+mod planning;
 mod search;
 mod stability;
 mod touching;
 mod visited;
+mod whole;
 
+pub use ahead::Ahead;
 pub use collapse::Collapse;
 pub use graph::{GraphNode, disassembly_graph};
 pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
-pub use search::{plan, plan_with};
+pub use planning::{plan, plan_with};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

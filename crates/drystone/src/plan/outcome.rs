@@ -2,7 +2,7 @@
 
 use super::stability::TestOutcome;
 use crate::check::Verdict;
-use std::time::Duration;
+use std::{thread, time::Duration};
 
 /// Budgets of a search, without which it goes on to the end, and how it goes about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,11 +14,20 @@ pub struct Limits {
     /// Answer without a test what the collapses found by earlier tests already answer (Lemmas 1 and 2 in `plan/collapse.rs`
     /// and `plan/learned.rs`). The order found is the same; the paper's planner does without.
     pub shortcuts: bool,
+    /// Threads to use; None for those of the machine. The plan is the same on any number.
+    pub threads: Option<usize>,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { tests: None, time: None, shortcuts: true }
+        Self { tests: None, time: None, shortcuts: true, threads: None }
+    }
+}
+
+impl Limits {
+    /// Threads to use.
+    pub fn threads(&self) -> usize {
+        self.threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, Into::into))
     }
 }
 

@@ -1,110 +1,31 @@
 //! Depth-first search of the disassembly graph.
 
-use super::dead_end::dead_end;
-use super::learned::{Bounds, Learned};
 use super::memory::{Back, Memory, Place};
-use super::outcome::{Limits, Monitor, Outcome, Plan, Progress, Stage, TestRecord};
-use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test};
+use super::outcome::{Limits, Monitor, Outcome, Progress, Stage, TestRecord};
+use super::stability::{PlanError, StabilityTest};
 use super::touching::Touching;
-use super::visited::Visited;
-use crate::{
-    check::{Verdict, check_blocks_while},
-    formulate::{Assembly, BlockSet},
-    scene::Scene,
+use crate::formulate::BlockSet;
+use std::{
+    iter::successors,
+    sync::atomic::{AtomicBool, Ordering},
+    time::Instant,
 };
-use std::time::{Duration, Instant};
-
-/// Plans with one of this crate's tests.
-///
-/// # Errors
-/// [`PlanError`] for an invalid scene or a test without an answer.
-pub fn plan(scene: &Scene, test: Test, limits: Limits, monitor: &mut dyn Monitor) -> Result<Plan, PlanError> {
-    let start = Instant::now();
-    let assembly = Assembly::new(scene)?;
-    let setup = Instant::now();
-    let mut test: Box<dyn StabilityTest + '_> = match test {
-        Test::Lcp => Box::new(FromScratch::new(&assembly)),
-        Test::Reuse => Box::new(Reuse::new(&assembly)),
-        Test::ReuseDantzig => Box::new(ReuseDantzig::new(&assembly)),
-    };
-    let setup = setup.elapsed();
-    let mut plan = plan_with(&assembly, test.as_mut(), limits, monitor)?;
-    plan.setup = setup;
-    plan.total = start.elapsed();
-    Ok(plan)
-}
-
-/// Plans with any stability test.
-///
-/// # Errors
-/// [`PlanError`] if the test gives no answer.
-pub fn plan_with(
-    assembly: &Assembly,
-    test: &mut dyn StabilityTest,
-    limits: Limits,
-    monitor: &mut dyn Monitor,
-) -> Result<Plan, PlanError> {
-    let mut clock = Clock { limits, start: Instant::now(), monitor };
-    let whole = check_whole(assembly, &mut clock);
-    let whole_time = clock.start.elapsed();
-    let touching = Touching::new(assembly);
-    let mut memory: Box<dyn Memory + '_> = match limits.shortcuts && test.explains() {
-        true => Box::new(Learned::new(&touching, Bounds::default())),
-        false => Box::new(Visited::default()),
-    };
-    let mut search = Search::new(&touching, memory.as_mut());
-    let outcome = match &whole {
-        Err(stopped) => *stopped,
-        Ok(whole) if !whole.stable => Outcome::WholeFalls,
-        Ok(_) => match search.run(test, &mut clock) {
-            Err(PlanError::Interrupted) => Outcome::Interrupted,
-            ended => ended?,
-        },
-    };
-    let Search { best: mut reached, records, .. } = search;
-    let falls_next = match outcome {
-        Outcome::NoOrder => dead_end(assembly, &touching, &mut reached)?,
-        _ => Vec::new(),
-    };
-    let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };
-    Ok(Plan {
-        outcome,
-        order: if outcome == Outcome::Found { bodies(&reached).into_iter().rev().collect() } else { Vec::new() },
-        reached: bodies(&reached),
-        falls_next: bodies(&falls_next),
-        records,
-        shortcuts: memory.shortcuts(),
-        setup: Duration::ZERO,
-        total: clock.start.elapsed(),
-        whole: whole.ok(),
-        whole_time,
-    })
-}
-
-/// The verdict on the complete assembly, or why it was not waited for.
-fn check_whole(assembly: &Assembly, clock: &mut Clock<'_>) -> Result<Verdict, Outcome> {
-    let blocks = assembly.blocks();
-    let mut stopped = Outcome::Interrupted;
-    let mut go_on = |placed| match clock.stops(Progress { stage: Stage::Whole, tests: 0, placed, blocks }) {
-        None => true,
-        Some(outcome) => {
-            stopped = outcome;
-            false
-        }
-    };
-    check_blocks_while(assembly, &BlockSet::full(blocks), &mut go_on).ok_or(stopped)
-}
 
 /// Says when a search has to end.
 pub(super) struct Clock<'a> {
     pub limits: Limits,
     pub start: Instant,
     pub monitor: &'a mut dyn Monitor,
+    /// Set when a check beside the search has found that the complete assembly falls.
+    pub whole_falls: &'a AtomicBool,
 }
 
 impl Clock<'_> {
-    fn stops(&mut self, progress: Progress) -> Option<Outcome> {
-        if progress.stage == Stage::Search && self.limits.tests.is_some_and(|limit| progress.tests >= limit) {
+    /// Why to stop, if there is a reason.
+    pub fn stops(&mut self, progress: Progress) -> Option<Outcome> {
+        if self.whole_falls.load(Ordering::Relaxed) {
+            Some(Outcome::WholeFalls)
+        } else if progress.stage == Stage::Search && self.limits.tests.is_some_and(|limit| progress.tests >= limit) {
             Some(Outcome::TestLimit)
         } else if self.limits.time.is_some_and(|limit| self.start.elapsed() >= limit) {
             Some(Outcome::TimeLimit)
@@ -124,8 +45,8 @@ pub(super) struct Search<'a> {
     position: Vec<usize>,
     /// How far each sub-assembly on the way has got with its candidates: a place in the upward order.
     tried: Vec<usize>,
-    best: Vec<usize>,
-    records: Vec<TestRecord>,
+    pub best: Vec<usize>,
+    pub records: Vec<TestRecord>,
 }
 
 impl<'a> Search<'a> {
@@ -179,12 +100,6 @@ impl<'a> Search<'a> {
         &self.placed
     }
 
-    /// Tests made.
-    #[cfg(test)]
-    pub fn tests(&self) -> usize {
-        self.records.len()
-    }
-
     /// The next block from the supports upward that can be put on the current sub-assembly.
     fn next_candidate(&mut self) -> Option<usize> {
         let tried = self.tried.last_mut()?;
@@ -202,6 +117,7 @@ impl<'a> Search<'a> {
     /// Tests the current sub-assembly, which holds `added`.
     fn stands(&mut self, test: &mut dyn StabilityTest, added: usize) -> Result<bool, PlanError> {
         let begin = Instant::now();
+        test.foresee(&mut self.likely());
         let outcome = test.test(&self.current, added)?;
         let time = begin.elapsed();
         self.records.push(TestRecord { size: self.placed.len() + 1, outcome, time });
@@ -213,6 +129,23 @@ impl<'a> Search<'a> {
             self.memory.fell(&place, added, test.collapse());
         }
         Ok(outcome.stands)
+    }
+
+    /// The current sub-assembly, which holds the block being tried, and those asked about after it as long as each stands.
+    fn likely(&self) -> impl Iterator<Item = BlockSet> {
+        let next = |set: &BlockSet| {
+            let mut from = 0;
+            while let Some((place, block)) = self.touching.candidate(set, from) {
+                let mut with = set.clone();
+                with.insert(block);
+                if !self.memory.is_lost(&with, block) {
+                    return (with.len() < self.touching.blocks()).then_some(with);
+                }
+                from = place + 1;
+            }
+            None
+        };
+        successors(Some(self.current.clone()), next)
     }
 
     fn descend(&mut self, added: usize) {

@@ -46,6 +46,10 @@ pub enum PlanError {
 /// A stability test that follows the search. The search tells it where it stands: it tests a block on top of the
 /// current sub-assembly, and moves to the one just tested or back from it.
 pub trait StabilityTest {
+    /// Told before each test which sub-assemblies the search is likely to ask about: the next one, and those after it as
+    /// long as each stands. A test may answer them ahead; asking for more of them than it needs is a waste.
+    fn foresee(&mut self, _likely: &mut dyn Iterator<Item = BlockSet>) {}
+
     /// Tests the current sub-assembly with `added` put on; `blocks` holds `added` already.
     ///
     /// # Errors

@@ -42,8 +42,12 @@ impl Visited {
 }
 
 impl Memory for Visited {
-    fn knows(&mut self, place: &Place<'_>, _added: usize) -> bool {
-        self.tested.contains(place.current)
+    fn is_lost(&self, set: &BlockSet, _added: usize) -> bool {
+        self.tested.contains(set)
+    }
+
+    fn knows(&mut self, place: &Place<'_>, added: usize) -> bool {
+        self.is_lost(place.current, added)
     }
 
     fn fell(&mut self, place: &Place<'_>, _added: usize, _collapse: Option<Collapse>) {
