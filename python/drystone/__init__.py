@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drystone import lcp, scenes
+    from drystone import lcp, scenes, viewer
     from drystone._core import DrystoneError, LcpError, SceneError, StartError, __version__
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.planning import Plan, TestRecord, plan
@@ -41,9 +41,10 @@ __all__ = [
     "plan",
     "plan_many",
     "scenes",
+    "viewer",
 ]
 
-_MODULES = ("lcp", "scenes")
+_MODULES = ("lcp", "scenes", "viewer")
 _HOMES = {
     "Body": "drystone.scene",
     "Contact": "drystone.scene",

@@ -17,16 +17,20 @@ __all__ = [
     "LcpSolution",
     "LcpSolver",
     "Plan",
+    "Recording",
+    "Replay",
     "Scene",
     "SceneError",
     "StartError",
     "Structure",
+    "StructureForces",
     "TestRecord",
     "Verdict",
     "__version__",
     "catalogue",
     "check",
     "disassembly_graph",
+    "forces_along",
     "generators",
     "lcp_solve",
     "plan",
@@ -97,6 +101,7 @@ class Body:
     mass: float
     inertia: float
     centroid: tuple[float, float]
+    angle: float
     vertices: NDArray[np.float64]
 
 @final
@@ -196,6 +201,47 @@ class Structure:
     def entries(self) -> int: ...
 
 @final
+class Recording:
+    """The stability tests of one search without shortcuts, in order, with the verdicts of `test`.
+
+    `test` is a callable as `plan` takes it.
+    """
+
+    def __new__(
+        cls, scene: Scene, test: Callable[[list[int], int], tuple[bool, int]]
+    ) -> Recording: ...
+    def replay(self, test: str | Callable[[list[int], int], tuple[bool, int]]) -> Replay:
+        """The same tests by a callable or by name: "lcp", "reuse-dantzig", "reuse", "block",
+        "reuse-block", "lemke" or "reuse-lemke".
+        """
+
+@final
+class Replay:
+    """`wrong` verdicts are unlike those recorded. `seconds` has the analysis before the first test
+    in it.
+    """
+
+    tests: int
+    pivots: int
+    wrong: int
+    unanswered: int
+    seconds: float
+
+@final
+class StructureForces:
+    """Forces of some structures of an order: those of the k-th are entries offsets[k]:offsets[k+1].
+
+    `blocks[k]` is its number of movable bodies, `stands[k]` whether forces hold it up. `contact` is
+    an index into `Scene.contacts()`; `force` (n, 2) acts on the contact's second body, N.
+    """
+
+    blocks: NDArray[np.int64]
+    stands: NDArray[np.bool_]
+    offsets: NDArray[np.int64]
+    contact: NDArray[np.int64]
+    force: NDArray[np.float64]
+
+@final
 class LcpSolution:
     z: NDArray[np.float64]
     w: NDArray[np.float64]
@@ -262,6 +308,18 @@ def plan(
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
     `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
+    """
+
+def forces_along(
+    scene: Scene,
+    order: Sequence[str],
+    every: int = 1,
+    progress: Callable[[int, int], None] | None = None,
+) -> StructureForces:
+    """Contact forces while movable bodies are put up in an order, the first put up first.
+
+    Of structures whose number of blocks is that of all less a multiple of `every`. `progress` is
+    called with (blocks placed, blocks in all) a few times a second.
     """
 
 def disassembly_graph(scene: Scene) -> list[tuple[list[str], bool]]:

@@ -44,7 +44,7 @@ __all__ = [
     "solve",
 ]
 
-METHODS = ("dantzig", "lemke")
+METHODS = ("dantzig", "lemke", "block")
 """The methods `solve` knows: see there."""
 
 
@@ -88,7 +88,7 @@ class Solution:
     """"solved" (the residual is at most 1e-9), "no_solution" (`ray` proves it), "ray_termination"
     (Lemke's method ended on a ray that proves nothing), "pivot_limit" or "numerical_trouble"."""
     pivots: int
-    """Major plus minor cycles."""
+    """Major plus minor cycles (of "block" rows moved, of "lemke" exchanges)."""
     major_cycles: int
     minor_cycles: int
     residual: float
@@ -135,7 +135,10 @@ def solve(
 
     - "dantzig": principal pivoting, for symmetric positive semidefinite M, singular or not.
       With a `start` of k indices it takes at most n - k major cycles.
-    - "lemke": Lemke's method, also for M that is not symmetric; takes no `start`.
+    - "block": block principal pivoting, for the same M: all infeasible rows are exchanged at once,
+      and Dantzig's method finishes where that leads nowhere. A block exchange is a major cycle,
+      every row that it moves a pivot.
+    - "lemke": Lemke's method, also for M that is not symmetric. A `start` is its first basis.
 
     Raises LcpError for entries that are not finite, shapes that do not match, or an M that the
     method cannot take; StartError for a start that is not a solution of its sub-problem. A problem

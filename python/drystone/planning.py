@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from os import PathLike
-from typing import Any
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.scene import Scene
 from drystone.verdict import Verdict, counted, shorten
+
+if TYPE_CHECKING:
+    from drystone.viewer import Page
 
 TESTS = ("reuse", "reuse-dantzig", "lcp", "lp", "lp-warm")
 """The stability tests `plan` knows: see there."""
@@ -132,10 +135,23 @@ class Plan:
         }
 
     def draw(self, path: str | PathLike[str]) -> None:
-        """Write a picture of the order; the name ends in .svg or .png."""
+        """Write a picture of the order (.svg or .png), or a page to step through it (.html)."""
+        if fspath(path).lower().endswith(".html"):
+            self.view().save(path)
+            return
         from drystone import pictures
 
         pictures.save(pictures.plan_figure(self), path)
+
+    def view(self, progress: Callable[[int, int], None] | None = None) -> Page:
+        """A page that steps through the order, with the contact forces of every structure.
+
+        Save it, or let a notebook show it. The forces are computed here; `progress` is called with
+        (blocks placed, blocks in all) a few times a second.
+        """
+        from drystone import viewer
+
+        return viewer.plan_page(self, progress)
 
     def _repr_svg_(self) -> str:
         from drystone import pictures

@@ -1,4 +1,4 @@
-"""A progress bar for a search, on standard error, once the search has lasted a second."""
+"""Progress bars for searches, on standard error, once they have lasted a second."""
 
 from __future__ import annotations
 
@@ -9,36 +9,33 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
+    from typing_extensions import Self
 
 PATIENCE = 1.0
 """Seconds without a bar."""
 
 
-class PlanProgress:
-    """Use as a context, and pass it to `plan` as its `progress`.
+class _Bar:
+    """A bar of blocks, with a few words behind it."""
 
-    >>> import drystone as ds
-    >>> with PlanProgress() as progress:
-    ...     ds.plan(ds.scenes.column(4), progress=progress).found
-    True
-    """
+    label = ""
+    hint = ""
 
-    def __init__(self, label: str = "planning") -> None:
-        self._label = label
+    def __init__(self, label: str | None = None) -> None:
+        self._label = label or self.label
         self._begun = time.monotonic()
         self._bar: Progress | None = None
         self._task: TaskID | None = None
 
-    def __call__(self, tests: int, placed: int, total: int) -> None:
+    def _show(self, placed: int, total: int, more: str = "") -> None:
         if self._bar is None:
             if time.monotonic() - self._begun < PATIENCE or not sys.stderr.isatty():
                 return
-            self._bar, self._task = _shown(self._label, total)
+            self._bar, self._task = _shown(self._label, total, self.hint)
         if self._task is not None:
-            label = self._label if tests else "checking the whole"
-            self._bar.update(self._task, description=label, completed=placed, tests=tests)
+            self._bar.update(self._task, completed=placed, more=more)
 
-    def __enter__(self) -> PlanProgress:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(
@@ -51,7 +48,32 @@ class PlanProgress:
             self._bar.stop()
 
 
-def _shown(label: str, total: int) -> tuple[Progress, TaskID]:
+class PlanProgress(_Bar):
+    """Use as a context, and pass it to `plan` as its `progress`.
+
+    >>> import drystone as ds
+    >>> with PlanProgress() as progress:
+    ...     ds.plan(ds.scenes.column(4), progress=progress).found
+    True
+    """
+
+    label = "planning"
+    hint = "Ctrl-C keeps the best so far"
+
+    def __call__(self, tests: int, placed: int, total: int) -> None:
+        self._show(placed, total, f", {tests} tests" if tests else ", checking the whole")
+
+
+class ForcesProgress(_Bar):
+    """Use as a context, and pass it to `Plan.view` as its `progress`."""
+
+    label = "computing forces"
+
+    def __call__(self, placed: int, total: int) -> None:
+        self._show(placed, total)
+
+
+def _shown(label: str, total: int, hint: str) -> tuple[Progress, TaskID]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -59,11 +81,11 @@ def _shown(label: str, total: int) -> tuple[Progress, TaskID]:
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn("blocks, {task.fields[tests]} tests"),
+        TextColumn("blocks{task.fields[more]}"),
         TimeElapsedColumn(),
-        TextColumn("[dim]Ctrl-C keeps the best so far"),
+        TextColumn(f"[dim]{hint}"),
         console=Console(stderr=True),
         transient=True,
     )
     bar.start()
-    return bar, bar.add_task(label, total=total, tests=0)
+    return bar, bar.add_task(label, total=total, more="")

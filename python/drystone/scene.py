@@ -35,6 +35,9 @@ class Body:
     """kg m^2, about the centroid."""
     centroid: tuple[float, float]
     """(x, y) in metres."""
+    angle: float
+    """Radians, counter-clockwise: how far the body is turned from the outline it was given with
+    (a box from upright; corners given as such are not turned)."""
     vertices: NDArray[np.float64]
     """(n, 2), metres, world coordinates, counter-clockwise."""
 
@@ -235,5 +238,6 @@ def _snapshot(body: _core.Body) -> Body:
         body.mass,
         body.inertia,
         body.centroid,
+        body.angle,
         body.vertices,
     )

@@ -109,6 +109,8 @@ class ColdProgram:
     def __init__(self, equilibrium: Equilibrium) -> None:
         self._program = equilibrium
         self._highs = _new_model()
+        self.rescued = 0
+        """Tests on which the primal simplex method gave no answer."""
 
     def __call__(self, bodies: list[int], added: int) -> tuple[bool, int]:
         """Whether the sub-assembly of these `bodies` stands, and the simplex iterations taken."""
@@ -123,7 +125,9 @@ class ColdProgram:
         _add_rows(self._highs, program.right[rows])
         generators = np.flatnonzero(present[program.bodies].all(axis=1))
         _add_columns(self._highs, program.columns(generators, place))
-        return _decide(self._highs)
+        stands, pivots, rescued = _decide(self._highs)
+        self.rescued += rescued
+        return stands, pivots
 
 
 class WarmProgram:
@@ -136,6 +140,8 @@ class WarmProgram:
     def __init__(self, equilibrium: Equilibrium) -> None:
         self._program = equilibrium
         self._highs = _new_model()
+        self.rescued = 0
+        """Tests on which the primal simplex method gave no answer."""
         self._placed: list[_Placed] = []
         # As in ColdProgram: index -1, a fixed body, is always present.
         self._present = np.zeros(len(equilibrium.touching) + 1, dtype=bool)
@@ -152,7 +158,8 @@ class WarmProgram:
             for body in np.flatnonzero(wanted & ~self._present):
                 self._add(int(body))
         self._add(added)
-        stands, pivots = _decide(self._highs)
+        stands, pivots, rescued = _decide(self._highs)
+        self.rescued += rescued
         self._placed[-1].basis = self._highs.getBasis() if stands else None
         return stands, pivots
 
@@ -252,15 +259,18 @@ def _delete_last(highs: highspy.Highs, columns: int, rows: int) -> None:
     highs.deleteRows(rows, np.arange(first, first + rows, dtype=np.int32))
 
 
-def _decide(highs: highspy.Highs) -> tuple[bool, int]:
-    """Solve; in another way if the primal simplex method ends without an answer, as it may."""
+def _decide(highs: highspy.Highs) -> tuple[bool, int, bool]:
+    """Whether it stands, the simplex iterations, and whether the answer had to be had otherwise.
+
+    The primal simplex method may end without an answer.
+    """
     if highs.getNumCol() == 0:
         # HiGHS calls a model without columns empty, whatever its rows demand.
-        return not np.any(highs.getLp().row_lower_), 0
+        return not np.any(highs.getLp().row_lower_), 0, False
     highs.run()
     stands = _answer(highs)
-    pivots = int(highs.getInfo().simplex_iteration_count)
-    return (_rescued(highs) if stands is None else stands), max(pivots, 0)
+    pivots = max(int(highs.getInfo().simplex_iteration_count), 0)
+    return (_rescued(highs), pivots, True) if stands is None else (stands, pivots, False)
 
 
 def _rescued(highs: highspy.Highs) -> bool:

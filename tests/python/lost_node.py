@@ -67,14 +67,17 @@ def main() -> int:
             part.replace(CONDEMNED)
             while " condemned" not in TRACE.read_text():
                 time.sleep(0.01)
-            cluster.remove_node(nodes[0], allow_graceful=False)
             note(f"killed {nodes[0].node_id}")
+            cluster.remove_node(nodes[0], allow_graceful=False)
 
         work.plan_text = traced
-        threading.Thread(target=kill_one, daemon=True).start()
+        killer = threading.Thread(target=kill_one, daemon=True)
+        killer.start()
         where = ["--engine", "ray", "--address", cluster.address]
         how = ["--test", "lp", "--json"]
-        return run(["plan", str(SCENES), "-o", str(OUTPUT), *where, *how])
+        status = run(["plan", str(SCENES), "-o", str(OUTPUT), *where, *how])
+        killer.join(AT_WORK)
+        return status
     finally:
         cluster.shutdown()
 

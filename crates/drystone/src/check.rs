@@ -5,6 +5,7 @@ use crate::{
     error::SceneError,
     formulate::{Assembly, BlockSet, ContactForce},
     scene::Scene,
+    structure::put_up,
 };
 use drystone_lcp::{
     Counts, Settings, Solver, Status,
@@ -101,14 +102,8 @@ pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
 /// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports. None if stopped.
 fn equilibrium_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<(Membership, ConeSolver)> {
     let mut equilibrium = assembly.equilibrium();
-    for (placed, block) in assembly.upward().into_iter().filter(|&block| blocks.contains(block)).enumerate() {
-        if !go_on(placed) {
-            return None;
-        }
-        equilibrium.add_rows(&Assembly::equilibrium_rows(block));
-        equilibrium.decide();
-    }
-    Some((equilibrium.solve(), equilibrium))
+    let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
+    put_up(&mut equilibrium, upward, go_on).then(|| (equilibrium.solve(), equilibrium))
 }
 
 fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {

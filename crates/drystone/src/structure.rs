@@ -12,6 +12,25 @@ use drystone_lcp::{
     cone::{ConeSolver, Membership},
 };
 
+/// Puts blocks into a solver, which has not answered then. As long as what is there stands it is asked about every block,
+/// which takes fewer pivots than all at once; what falls in between (half an arch) would only be in the way. Stops, with
+/// false, as soon as `go_on` says so, which is told how many are in.
+pub(crate) fn put_up(
+    solver: &mut ConeSolver,
+    blocks: impl IntoIterator<Item = usize>,
+    mut go_on: impl FnMut(usize) -> bool,
+) -> bool {
+    let mut stands = true;
+    for (placed, block) in blocks.into_iter().enumerate() {
+        if !go_on(placed) {
+            return false;
+        }
+        stands = stands && solver.decide() == Membership::Inside;
+        solver.add_rows(&Assembly::equilibrium_rows(block));
+    }
+    true
+}
+
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
 ///
 /// Kept between questions: the contacts of the complete scene, the basis of the generators that hold the structure up,
@@ -89,17 +108,11 @@ impl Structure {
         }
     }
 
-    /// Puts the new blocks into the solver one by one from the supports upward, which takes fewer pivots than all at
-    /// once.
+    /// Puts the new blocks into the solver, from the supports upward.
     fn put_up(&mut self) {
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
-        for (k, block) in new.into_iter().enumerate() {
-            if k > 0 {
-                self.solver.decide();
-            }
-            self.solver.add_rows(&Assembly::equilibrium_rows(block));
-        }
+        put_up(&mut self.solver, new, |_| true);
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.

@@ -149,7 +149,7 @@ fn every_answer_of_a_walk_is_that_of_a_fresh_solver() {
     assert!(seen.iter().all(|&count| count > 500), "falling and standing: {seen:?}");
 }
 
-/// Putting a block on what stands firm costs the same however high the structure is (Lemma 3); asking for all forces
+/// Putting a block on what stands firm costs the same however high the structure is (the bearing lemma); asking for all forces
 /// then costs a pass over them.
 #[test]
 fn a_verdict_on_one_block_more_does_not_walk_to_the_ground() {

@@ -1,6 +1,7 @@
 //! Work done: exact, machine independent, what the tests gate on.
 
-/// Counts of one solve, or of a [`Solver`](crate::Solver) since it was made.
+/// Counts of one solve, or of a [`Solver`](crate::Solver) since it was made. A block exchange of [`Block`](crate::Block) is a
+/// major cycle, and every row that it moves a pivot.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Major cycles: rows driven to feasibility. Each ends with one pivot; with none when it ends on a ray, or when its

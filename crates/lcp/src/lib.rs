@@ -9,7 +9,7 @@
 //! Read in this order: [`Problem`] (what is solved), [`Solution`] and [`Status`] (what comes back),
 //! [`Settings`] (every tolerance), [`Solver`] (Dantzig's principal pivoting on a masked problem, the object
 //! that keeps its factor between solves), [`Start`] (reuse of a sub-problem's solution), then the methods
-//! [`Dantzig`] and [`Lemke`] behind one trait, [`Method`].
+//! [`Dantzig`], [`Block`] and [`Lemke`] behind one trait, [`Method`].
 //!
 //! ```
 //! use drystone_lcp::{Dantzig, Method, Problem, Settings, Status};
@@ -40,7 +40,7 @@ mod solver;
 pub use counts::Counts;
 pub use error::LcpError;
 pub use matrix::SparseColumns;
-pub use pivot::{Dantzig, Lemke, Method};
+pub use pivot::{Block, Dantzig, Lemke, Method};
 pub use problem::Problem;
 pub use reuse::{Start, StartError};
 pub use settings::Settings;

@@ -66,13 +66,13 @@ pub enum StartError {
         /// The value of `w`.
         w: f64,
     },
-    /// The method cannot start from a sub-problem.
-    #[error("{method} cannot start from a sub-problem's solution; use Dantzig's method")]
-    Unsupported {
-        /// Name of the method.
-        method: &'static str,
-    },
+    /// Rows with `z > 0` depend on one another, and M is not symmetric: Lemke's method has no basis to start from.
+    #[error("the rows with z > 0 depend on one another: for an M that is not symmetric, start from a basic solution")]
+    Dependent,
 }
+
+/// A pair with both sides above this, in the problem's own scale, is not complementary (validity of a start).
+const TOLERANCE: f64 = 1e-9;
 
 impl Start {
     /// Checks what can be checked without the matrix.
@@ -93,6 +93,24 @@ impl Start {
             }
             if !value.is_finite() || value < 0.0 {
                 return Err(StartError::Infeasible { index, value });
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that a pair, scaled to a unit diagonal by `d` (n), solves the sub-problem. `q_size` is its largest scaled `q`.
+    ///
+    /// # Errors
+    /// The first [`StartError`] found.
+    pub(crate) fn require_complementary(&self, z: &[f64], w: &[f64], d: &[f64], q_size: f64) -> Result<(), StartError> {
+        let tolerance = TOLERANCE * self.indices.iter().fold(q_size, |size, &i| size.max(z[i].abs()));
+        for &index in &self.indices {
+            let unscaled = w[index] / d[index];
+            if w[index] < -tolerance {
+                return Err(StartError::Violated { index, w: unscaled });
+            }
+            if z[index] > tolerance && w[index] > tolerance {
+                return Err(StartError::NotComplementary { index, z: z[index] * d[index], w: unscaled });
             }
         }
         Ok(())

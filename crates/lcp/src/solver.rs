@@ -9,6 +9,7 @@
 //! Cottle and Dantzig (1968); Baraff, Fast contact force computation for nonpenetrating rigid bodies (1994);
 //! Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006).
 
+mod blocks;
 mod drive;
 mod settle;
 mod snapshot;
@@ -22,7 +23,7 @@ use crate::{
     matrix::SparseColumns,
     problem::Problem,
     ratio::Candidate,
-    reuse::{Start, StartError},
+    reuse::Start,
     scaling::Scaling,
     settings::Settings,
     solution::{Solution, Status},
@@ -130,8 +131,6 @@ enum Checked {
     LostAccuracy,
 }
 
-/// A pair with both sides above this, in the problem's own scale, is not complementary (validity of a start).
-const START_TOLERANCE: f64 = 1e-9;
 /// Zero-length steps in one major cycle, as a multiple of the active rows, after which ties go by least index.
 const STALL: usize = 2;
 /// Active `w` at or below this, in the problem's own scale, are rounding: correcting for them would only add noise
@@ -319,7 +318,7 @@ impl Solver {
         }
         self.measure_q();
         self.recompute_w();
-        if let Err(error) = self.require_complementary(start) {
+        if let Err(error) = start.require_complementary(&self.z, &self.w, &self.scaling.d, self.q_size) {
             self.clear();
             return Err(error.into());
         }
@@ -329,21 +328,6 @@ impl Solver {
             }
         }
         self.recompute_w();
-        Ok(())
-    }
-
-    fn require_complementary(&self, start: &Start) -> Result<(), StartError> {
-        let tolerance = START_TOLERANCE * largest(&self.z, &start.indices).max(self.q_size);
-        for &index in &start.indices {
-            let (z, w) = (self.z[index], self.w[index]);
-            let unscaled = w / self.scaling.d[index];
-            if w < -tolerance {
-                return Err(StartError::Violated { index, w: unscaled });
-            }
-            if z > tolerance && w > tolerance {
-                return Err(StartError::NotComplementary { index, z: self.z(index), w: unscaled });
-            }
-        }
         Ok(())
     }
 
@@ -360,17 +344,24 @@ impl Solver {
     /// # Errors
     /// As [`Self::solve`].
     pub fn solve_while(&mut self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
+        self.answer(|solver, limit| solver.solve_present(limit, go_on))
+    }
+
+    /// Keeps the accounts of one solve; `method` is given the number of pivots at which it has to stop.
+    fn answer<S: From<Status> + PartialEq>(
+        &mut self,
+        method: impl FnOnce(&mut Self, usize) -> Result<S, LcpError>,
+    ) -> Result<S, LcpError> {
         self.counts_at_solve = self.counts;
         self.ray = None;
-        let answer = self.solve_present(go_on);
+        let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
+        let answer = method(self, self.counts.pivots + self.settings.pivot_limit_for(present));
         // Without an answer the row driven last has both z > 0 and w < 0.
-        self.settled = answer == Ok(Some(Status::Solved));
+        self.settled = answer.as_ref().is_ok_and(|status| *status == Status::Solved.into());
         answer
     }
 
-    fn solve_present(&mut self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
-        let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
-        let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
+    fn solve_present(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         let mut rounds = 0;
         let mut repairs = [Self::refactor, Self::restart].into_iter();
         loop {

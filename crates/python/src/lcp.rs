@@ -1,7 +1,7 @@
 //! `lcp_solve`: matrices in compressed columns in, a checked solution out.
 
 use crate::{arrays::vector, errors::lcp_error};
-use drystone_lcp::{Dantzig, LcpError, Lemke, Method, Problem, Settings, Solution, SparseColumns, Start};
+use drystone_lcp::{Block, Dantzig, LcpError, Lemke, Method, Problem, Settings, Solution, SparseColumns, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::{exceptions::PyValueError, prelude::*};
 
@@ -62,8 +62,9 @@ pub fn lcp_solve(
     let solver: Box<dyn Method + Send + Sync> = match method {
         "dantzig" => Box::new(Dantzig),
         "lemke" => Box::new(Lemke),
+        "block" => Box::new(Block),
         other => {
-            let message = format!("unknown method \"{other}\": give \"dantzig\" or \"lemke\"");
+            let message = format!("unknown method \"{other}\": give \"dantzig\", \"lemke\" or \"block\"");
             return Err(PyValueError::new_err(message));
         }
     };

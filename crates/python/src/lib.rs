@@ -2,9 +2,11 @@
 
 mod arrays;
 mod errors;
+mod forces;
 mod lcp;
 mod lcp_solver;
 mod plan;
+mod recording;
 mod scene;
 mod structure;
 mod verdict;
@@ -25,6 +27,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<plan::Plan>()?;
     module.add_class::<plan::Generators>()?;
     module.add_class::<structure::Structure>()?;
+    module.add_class::<recording::Recording>()?;
+    module.add_class::<recording::Replay>()?;
+    module.add_class::<forces::StructureForces>()?;
     module.add_class::<lcp::LcpSolution>()?;
     module.add_class::<lcp_solver::LcpSolver>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;
@@ -32,6 +37,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(verdict::check, module)?)?;
     module.add_function(wrap_pyfunction!(plan::generators, module)?)?;
     module.add_function(wrap_pyfunction!(plan::plan, module)?)?;
+    module.add_function(wrap_pyfunction!(forces::forces_along, module)?)?;
     module.add_function(wrap_pyfunction!(plan::disassembly_graph, module)?)?;
     module.add_function(wrap_pyfunction!(lcp::lcp_solve, module)?)?;
     Ok(())

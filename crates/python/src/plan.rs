@@ -84,8 +84,8 @@ pub fn generators(py: Python<'_>, scene: &Scene) -> PyResult<Generators> {
 }
 
 /// A stability test written in Python: called with (indices of the blocks, index of the one added last).
-struct Callback {
-    function: Py<PyAny>,
+pub struct Callback {
+    pub function: Py<PyAny>,
 }
 
 impl StabilityTest for Callback {

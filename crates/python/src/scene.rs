@@ -21,6 +21,7 @@ pub struct Body {
     mass: f64,
     inertia: f64,
     centroid: (f64, f64),
+    angle: f64,
     vertices: Py<PyArray2<f64>>,
 }
 
@@ -55,6 +56,7 @@ impl Scene {
             mass: body.mass(),
             inertia: body.inertia(),
             centroid: body.pose.position.into(),
+            angle: body.pose.angle,
             vertices: matrix(py, &body.vertices())?.unbind(),
         })
     }

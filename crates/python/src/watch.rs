@@ -5,7 +5,7 @@ use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
 use std::time::{Duration, Instant};
 
 /// Time between two looks.
-const PERIOD: Duration = Duration::from_millis(100);
+pub const PERIOD: Duration = Duration::from_millis(100);
 
 /// Looks for Ctrl-C and reports progress, a few times a second.
 pub struct Watch {

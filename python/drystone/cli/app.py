@@ -101,7 +101,10 @@ def plan(
     output: Annotated[
         Path | None,
         typer.Option(
-            "-o", "--output", help="Write a picture, .svg or .png; the plans of a folder."
+            "-o",
+            "--output",
+            help="Write a picture, .svg or .png, or a page to step through, .html; "
+            "the plans of a folder.",
         ),
     ] = None,
     engine: Annotated[
@@ -150,7 +153,31 @@ def paper(
     """Table I and Figs. 5, 6 and 7 of Loomis and Balkcom (2006)."""
     from drystone.cli import bench as command
 
-    return command.run(output)
+    return command.paper(output)
+
+
+@bench_app.command()
+def methods(
+    scenes: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[SCENE]...", help="Scenes; else the paper's structures."),
+    ] = None,
+    repeats: Annotated[
+        int, typer.Option(min=1, help="Repetitions of what takes under a second; the least counts.")
+    ] = 5,
+    as_json: AsJson = False,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="Folder for the table as CSV.")
+    ] = None,
+) -> int:
+    """What reuse gives to other methods: Dantzig's, block pivoting, Lemke's, linear programs.
+
+    The stability tests of one search, by each method, from scratch and with reuse (section VI of
+    the paper). On the paper's structures it takes about a minute, most of it for Lemke's method.
+    """
+    from drystone.cli import bench as command
+
+    return command.methods(scenes or (), repeats, output, as_json)
 
 
 @bench_app.callback()

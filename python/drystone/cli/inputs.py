@@ -49,11 +49,18 @@ def python_name(name: str) -> str:
     return name.replace("-", "_")
 
 
-def picture_path(path: Path | None) -> Path | None:
-    """`path`, refused before any work if no picture can be written there."""
-    if path is not None and path.suffix.lower() not in (".svg", ".png"):
-        raise InputError(f"{path}: a picture's name ends in .svg or .png")
+def picture_path(path: Path | None, *others: str) -> Path | None:
+    """`path`, refused before any work if it ends in none of .svg, .png and `others`."""
+    endings = (".svg", ".png", *others)
+    if path is not None and path.suffix.lower() not in endings:
+        known = f"{', '.join(endings[:-1])} or {endings[-1]}"
+        raise InputError(f"{path}: a picture's name ends in {known}")
     return path
+
+
+def page_path(path: Path | None) -> bool:
+    """Whether a page is to be written, and not a picture."""
+    return path is not None and path.suffix.lower() == ".html"
 
 
 @contextmanager

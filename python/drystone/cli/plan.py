@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from drystone.cli.inputs import load_scene, picture_path, reporting_files
+from drystone.cli.inputs import load_scene, page_path, picture_path, reporting_files
 from drystone.planning import Plan, plan
-from drystone.progress import PlanProgress
+from drystone.progress import ForcesProgress, PlanProgress
 
 
 def run(
@@ -21,18 +21,27 @@ def run(
     output: Path | None,
 ) -> int:
     """0 if an order was found, 1 if not."""
-    picture = picture_path(output)
+    picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     with PlanProgress() as progress:
         found = plan(scene, test, node_limit, time_limit, progress, shortcuts, threads)
     if picture is not None:
         with reporting_files():
-            found.draw(picture)
+            _write(found, picture)
     if as_json:
         print(json.dumps(found.to_dict(), indent=2))
     else:
         _print(found, picture)
     return 0 if found.found else 1
+
+
+def _write(found: Plan, path: Path) -> None:
+    if not page_path(path):
+        found.draw(path)
+        return
+    with ForcesProgress() as progress:
+        page = found.view(progress)
+    page.save(path)
 
 
 def _print(found: Plan, picture: Path | None) -> None:
@@ -52,4 +61,5 @@ def _print(found: Plan, picture: Path | None) -> None:
     facts.add_row("stability test", found.test)
     console.print(facts)
     if picture is not None:
-        console.print(f"picture: {picture}")
+        what = "page" if page_path(picture) else "picture"
+        console.print(f"{what}: {picture}", soft_wrap=True)

@@ -16,6 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
 
+from drystone.files import write_whole
 from drystone.many.answers import ScenePlan
 from drystone.many.jobs import Job
 from drystone.many.work import Settings, failure
@@ -24,8 +25,6 @@ FORMAT = "drystone plan"
 VERSION = 1
 INDEX = "index.jsonl"
 LOCK = ".lock"
-PART = ".part"
-"""Ending of a file that is being written. One left by a killed process is overwritten."""
 
 
 class Store:
@@ -93,7 +92,7 @@ class Store:
         record["sha256"] = _digest(record)
         if self._folder is not None:
             if _kept(record):
-                _write_whole(self._folder / job.key, json.dumps(record) + "\n")
+                write_whole(self._folder / job.key, (json.dumps(record) + "\n").encode())
             self._append(job, record, worker)
         return self._answer(job, record, reused=False)
 
@@ -181,15 +180,6 @@ def _sound(path: Path) -> dict[str, Any] | None:
     ):
         return None
     return record if record.get("sha256") == _digest(record) else None
-
-
-def _write_whole(path: Path, text: str) -> None:
-    part = path.with_name(f".{path.name}{PART}")
-    with part.open("w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
-    part.replace(path)
 
 
 def _locked(path: Path) -> IO[bytes]:

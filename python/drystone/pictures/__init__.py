@@ -1,4 +1,4 @@
-"""Pictures of scenes, verdicts and plans, as matplotlib figures.
+"""Pictures of scenes, verdicts, plans and frames of recordings, as matplotlib figures.
 
 Figures are built without pyplot: no global state, no window, any thread. `save` writes SVG or PNG,
 `svg` gives the text of one.
@@ -7,5 +7,14 @@ Figures are built without pyplot: no global state, no window, any thread. `save`
 from drystone.pictures.canvas import save, svg
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
 from drystone.pictures.graph import graph_figure
+from drystone.pictures.recording import frame_figure
 
-__all__ = ["graph_figure", "plan_figure", "save", "scene_figure", "svg", "verdict_figure"]
+__all__ = [
+    "frame_figure",
+    "graph_figure",
+    "plan_figure",
+    "save",
+    "scene_figure",
+    "svg",
+    "verdict_figure",
+]

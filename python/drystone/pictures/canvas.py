@@ -14,6 +14,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from drystone.files import write_whole
 from drystone.pictures import style
 from drystone.scene import Body
 
@@ -109,12 +110,12 @@ def fitted(
 
 
 def save(figure: Figure, path: str | PathLike[str]) -> None:
-    """Write the figure; the name ends in .svg or .png. ValueError for another ending."""
+    """Write the figure whole or not at all; ValueError unless the name ends in .svg or .png."""
     suffix = Path(fspath(path)).suffix.lower()
     if suffix not in (".svg", ".png"):
         raise ValueError(f"a picture's name ends in .svg or .png, not {suffix or 'nothing'!r}")
     data = _rendered(figure, suffix[1:])
-    Path(fspath(path)).write_bytes(data)
+    write_whole(Path(fspath(path)), data)
 
 
 def svg(figure: Figure) -> str:

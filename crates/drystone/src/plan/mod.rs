@@ -7,14 +7,17 @@
 mod ahead;
 mod collapse;
 mod dead_end;
+mod forces;
 mod graph;
 mod learned;
 #[cfg(test)]
 mod lemma_tests;
 mod memory;
+mod methods;
 mod nogood;
 mod outcome;
 mod planning;
+mod replay;
 mod search;
 mod stability;
 mod touching;
@@ -23,7 +26,10 @@ mod whole;
 
 pub use ahead::Ahead;
 pub use collapse::Collapse;
+pub use forces::{StructureForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
+pub use methods::{ByBlocks, ByLemke};
 pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
 pub use planning::{plan, plan_with};
+pub use replay::{Recorder, Replay, Step, replay};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

@@ -7,7 +7,7 @@ use crate::{
     formulate::{Assembly, BlockSet},
 };
 use drystone_lcp::{
-    Settings, Snapshot, Solver, Status,
+    LcpError, Settings, Snapshot, Solver, Status,
     cone::{ConeSolver, Mark, Membership},
 };
 
@@ -84,15 +84,25 @@ pub enum Test {
     ReuseDantzig,
 }
 
-fn solver_for(assembly: &Assembly) -> Solver {
+pub(super) fn solver_for(assembly: &Assembly) -> Solver {
     Solver::new(assembly.problem(), Settings::default()).expect("A = G' M^-1 G is symmetric with a positive diagonal")
 }
 
-/// Solves what is present and reads the answer.
+/// Solves what is present by Dantzig's method, and reads the answer.
 fn solve(assembly: &Assembly, solver: &mut Solver, blocks: &BlockSet) -> Result<TestOutcome, PlanError> {
+    solve_by(Solver::solve, assembly, solver, blocks)
+}
+
+/// Solves what is present by one of the solver's methods, and reads the answer.
+pub(super) fn solve_by(
+    method: impl FnOnce(&mut Solver) -> Result<Status, LcpError>,
+    assembly: &Assembly,
+    solver: &mut Solver,
+    blocks: &BlockSet,
+) -> Result<TestOutcome, PlanError> {
     let before = solver.counts().pivots;
     let no_answer = |reason: String| PlanError::NoAnswer { blocks: blocks.len(), reason };
-    match solver.solve().map_err(|error| no_answer(error.to_string()))? {
+    match method(solver).map_err(|error| no_answer(error.to_string()))? {
         Status::Solved => Ok(TestOutcome {
             stands: stands_under(assembly, blocks, |j| solver.z(j)),
             pivots: solver.counts().pivots - before,

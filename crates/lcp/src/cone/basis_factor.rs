@@ -67,6 +67,8 @@ pub(super) struct BasisFactor {
     undo: Vec<Undo>,
     /// Rows that came together have one number, later ones a larger one.
     group: Vec<u32>,
+    /// Numbers stored off the diagonal of `U`, and in the row operations.
+    stored: usize,
     /// Numbers read by triangular solves.
     read: usize,
     due: Due,
@@ -107,6 +109,7 @@ impl BasisFactor {
             writers: vec![Vec::new(); n],
             undo: Vec::new(),
             group: vec![0; n],
+            stored: 0,
             read: 0,
             due: Due::default(),
             work: vec![0.0; n],
@@ -252,6 +255,7 @@ impl BasisFactor {
         self.undo.push(Undo { position, stage: old, operation: !terms.is_empty() });
         if !terms.is_empty() {
             let id = self.operations.len() as u32;
+            self.stored += terms.len();
             terms.iter().for_each(|&(row, _)| self.readers[row as usize].push(id));
             self.writers[p].push(id);
             self.operations.push(RowOperation { target: position, terms });
@@ -263,6 +267,7 @@ impl BasisFactor {
             self.rows[stage as usize].push((new, value));
         }
         let len = (self.above.len() - start) as u32;
+        self.stored += len as usize;
         self.stages.push(Stage { position, start: start as u32, len, reciprocal: diagonal.recip() });
         self.rows.push(Vec::new());
         self.work.push(0.0);
@@ -272,6 +277,7 @@ impl BasisFactor {
 
     /// Takes a stage's column out of the rows it stands in, and its row out of the columns.
     fn unlink(&mut self, stage: u32) {
+        self.stored -= self.entries_of(stage);
         let Self { stages, above, rows, .. } = self;
         above[stages[stage as usize].range()].iter().for_each(|&(i, _)| drop_entry(&mut rows[i as usize], stage));
         for &(q, _) in &rows[stage as usize] {
@@ -284,8 +290,14 @@ impl BasisFactor {
         }
     }
 
+    /// Numbers in the column and in the row of a stage.
+    fn entries_of(&self, stage: u32) -> usize {
+        self.stages[stage as usize].len as usize + self.rows[stage as usize].len()
+    }
+
     /// Undoes [`Self::unlink`].
     fn link(&mut self, stage: u32) {
+        self.stored += self.entries_of(stage);
         let Self { stages, above, rows, .. } = self;
         above[stages[stage as usize].range()].iter().for_each(|&(i, value)| rows[i as usize].push((stage, value)));
         for &(q, value) in &rows[stage as usize] {
@@ -319,6 +331,7 @@ impl BasisFactor {
         {
             let p = position as usize;
             if operation && let Some(last) = self.operations.pop() {
+                self.stored -= last.terms.len();
                 for (row, _) in last.terms {
                     self.readers[row as usize].pop();
                 }
@@ -346,10 +359,14 @@ impl BasisFactor {
         self.read
     }
 
+    /// Stored numbers without the diagonal of `U`.
+    pub fn stored(&self) -> usize {
+        self.stored
+    }
+
     /// Stored numbers.
     pub fn entries(&self) -> usize {
-        let upper: usize = self.stage.iter().map(|&stage| 1 + self.stages[stage as usize].len as usize).sum();
-        upper + self.operations.iter().map(|operation| operation.terms.len()).sum::<usize>()
+        self.stage.len() + self.stored
     }
 }
 

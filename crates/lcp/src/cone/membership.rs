@@ -129,13 +129,16 @@ pub struct ConeSolver {
     counts: Counts,
     /// The last pivots showed that digits were lost.
     shaky: bool,
+    /// Entries of the factor above which it is built again in a sparser order.
+    most_entries: usize,
 }
 
 const OUT: u32 = u32::MAX;
 /// A basic value within this of zero is zero. Values are forces relative to the scaled `h` (largest entry one): rounding
 /// along a path of a thousand blocks is near 1e-13.
 const ZERO: f64 = 1e-10;
-/// Rate of the infeasibility below which a column does not help (columns have a largest entry of one).
+/// Rate of the infeasibility, relative to the largest multiplier, below which a column does not help (columns have a
+/// largest entry of one): less is rounding of the multipliers.
 const RATE: f64 = 1e-9;
 /// Entries of `B^-1 g` at or below this do not block: rounding.
 const PIVOT: f64 = 1e-10;
@@ -158,10 +161,13 @@ const MOST_BEHIND: usize = 64;
 const DISAGREEMENT: f64 = 1e-8;
 /// Factors of a row operation above this cost too many digits.
 const GROWTH: f64 = 1e6;
+/// Entries of the factor for each row that are never too many, and how many times more than after it was built last are.
+const ENTRIES: usize = 32;
+const FILL: usize = 3;
 /// The infeasibility must fall by this share to count as progress.
 const PROGRESS: f64 = 1e-12;
 /// Pivots without progress after which entering and leaving go by least index (Bland 1977), which cannot cycle.
-const STALL: usize = 100;
+const STALL: usize = 200;
 
 impl ConeSolver {
     /// Takes the generators of the complete problem, `h`, and for each row the unit in which its imbalance is measured
@@ -222,6 +228,7 @@ impl ConeSolver {
             residual: 0.0,
             counts: Counts::default(),
             shaky: false,
+            most_entries: 0,
             g,
         })
     }
@@ -333,8 +340,7 @@ impl ConeSolver {
                 _ if rebuilt => return Membership::NumericalTrouble,
                 _ => (rebuilt, refined) = (true, 0),
             }
-            let columns = self.basic_columns();
-            if !self.rebuild(&columns) {
+            if !self.rebuild(&self.basis_set()) {
                 return Membership::NumericalTrouble;
             }
             self.recompute_values();

@@ -12,6 +12,7 @@
 mod basis_factor;
 mod columns;
 mod due;
+mod fill_order;
 mod membership;
 mod pricing;
 mod sparse_vector;

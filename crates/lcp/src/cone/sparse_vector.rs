@@ -45,6 +45,11 @@ impl SparseVector {
         self.index.iter().map(|&i| (i, self.value[i as usize]))
     }
 
+    /// Largest absolute value.
+    pub fn largest(&self) -> f64 {
+        self.iter().fold(0.0, |largest, (_, value)| if value.abs() > largest { value.abs() } else { largest })
+    }
+
     pub fn clear(&mut self) {
         for i in self.index.drain(..) {
             self.value[i as usize] = 0.0;

@@ -16,13 +16,19 @@ impl Method for Dantzig {
     }
 
     fn solve(&self, problem: &Problem, start: Option<&Start>, settings: &Settings) -> Result<Solution, LcpError> {
-        let mut solver = Solver::new(problem.clone(), settings.clone())?;
-        if let Some(start) = start {
-            solver.start_from(start)?;
-        }
-        let rows: Vec<usize> = (0..problem.len()).collect();
-        solver.add_rows(&rows)?;
+        let mut solver = present(problem, start, settings)?;
         let status = solver.solve()?;
         Ok(solver.solution(status))
     }
+}
+
+/// A solver with every row of the problem, started from a sub-problem's solution if one is given.
+pub(super) fn present(problem: &Problem, start: Option<&Start>, settings: &Settings) -> Result<Solver, LcpError> {
+    let mut solver = Solver::new(problem.clone(), settings.clone())?;
+    if let Some(start) = start {
+        solver.start_from(start)?;
+    }
+    let rows: Vec<usize> = (0..problem.len()).collect();
+    solver.add_rows(&rows)?;
+    Ok(solver)
 }

@@ -7,12 +7,19 @@
 //! It processes every copositive-plus matrix, positive semidefinite ones among them: a solution or a proof that there is
 //! none. For other matrices a ray proves nothing. Dense, n^2 operations a pivot.
 //!
+//! With reuse the path begins at the basis of a sub-problem's solution, and c is positive only where that is
+//! infeasible. For semidefinite M, symmetric or not, and for P-matrices this proves as much as a positive c does
+//! (`docs/theory/lemke.md`); for any other M a ray that proves nothing is followed by a solve from scratch.
+//!
 //! Lemke, Bimatrix equilibrium points and mathematical programming (1965); Eaves, The linear complementarity
-//! problem (1971); Cottle, Pang and Stone, The Linear Complementarity Problem (1992), section 4.4.
+//! problem (1971); Tomlin, Robust implementation of Lemke's method for the linear complementarity problem (1978);
+//! Cottle, Pang and Stone, The Linear Complementarity Problem (1992), section 4.4.
 
 mod equilibration;
 mod inverse;
 mod path;
+mod start;
+mod system;
 #[cfg(test)]
 mod tests;
 
@@ -29,11 +36,13 @@ use crate::{
 use equilibration::Equilibration;
 use faer::{Mat, linalg::solvers::Solve};
 use path::{End, Path};
+use start::Known;
 
 /// Complementary pivoting with an artificial variable and the lexicographic rule.
 ///
 /// Counts: `pivots` are exchanges, the first (`z0` in) and the last (`z0` out) among them; there are no
-/// major and minor cycles. A start is refused with [`StartError::Unsupported`].
+/// major and minor cycles. Where M is not symmetric, a start that is not a basic solution may be refused with
+/// [`StartError::Dependent`].
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Lemke;
 
@@ -43,23 +52,29 @@ impl Method for Lemke {
     }
 
     fn solve(&self, problem: &Problem, start: Option<&Start>, settings: &Settings) -> Result<Solution, LcpError> {
-        if start.is_some() {
-            return Err(StartError::Unsupported { method: self.name() }.into());
-        }
         let scaling = Equilibration::new(problem.m());
         let (m, q, unit) = scaling.apply(problem)?;
         let limit = settings.pivot_limit_for(problem.len());
         let mut counts = Counts::default();
-        let mut attempt = |cover: Vec<f64>| {
-            let mut path = Path::new(&m, &q, settings, cover);
+        let mut attempt = |mut path: Path| {
             let end = path.follow(limit.saturating_sub(counts.pivots));
             counts.pivots += path.pivots;
             counts.refactorisations += path.refactorisations;
             Outcome { problem, settings, scaling: &scaling, m: &m, q: &q, unit, counts }.judge(&path, end)
         };
+        if let Some(start) = start {
+            let known = Known::new(problem, start, settings)?;
+            let from = |active: Vec<usize>| Path::from_basis(&m, &q, settings, &active, known.order());
+            let path = from(known.positive()).or_else(|| from(known.completed(&m)?)).or_else(|| from(known.reduced()?));
+            let solution = attempt(path.ok_or(StartError::Dependent)?);
+            if !matches!(solution.status, Status::RayTermination | Status::NumericalTrouble) {
+                return Ok(solution);
+            }
+        }
         let [ones, uneven] = covering_vectors(problem.len());
-        let solution = attempt(ones);
-        Ok(if solution.status == Status::NumericalTrouble { attempt(uneven) } else { solution })
+        let solution = attempt(Path::new(&m, &q, settings, ones));
+        let trouble = solution.status == Status::NumericalTrouble;
+        Ok(if trouble { attempt(Path::new(&m, &q, settings, uneven)) } else { solution })
     }
 }
 
@@ -86,6 +101,8 @@ impl Outcome<'_> {
         match end {
             // A ray met where z0 is zero already is a solution found too late.
             End::Ray(_) if reached.residual <= self.settings.residual => Solution { status: Status::Solved, ..reached },
+            // Without a z part it is the ray on which the path began. Only a tie misjudged by rounding leads back there.
+            End::Ray(ray) if ray.iter().all(|&y| y == 0.0) => reached,
             End::Ray(ray) => {
                 let ray = self.unscale(&ray, 1.0);
                 let status = if self.certifies(&ray) { Status::NoSolution } else { Status::RayTermination };

@@ -1,8 +1,10 @@
 //! The methods, one file each, behind one trait.
 
+mod block;
 mod dantzig;
 mod lemke;
 
+pub use block::Block;
 pub use dantzig::Dantzig;
 pub use lemke::Lemke;
 

@@ -86,6 +86,24 @@ impl Solver {
     /// The direction in which only `z_i` and the active `z` move and the active `w` stay zero:
     /// `dz_i = 1`, `dz_C = -M_CC^-1 M_Ci`, `dw = M dz`.
     fn direction(&mut self, i: usize) {
+        self.solve_direction(i);
+        self.multiply_direction(i);
+        let size = largest(&self.dz, self.active.members()).max(1.0);
+        if largest(&self.dw, self.active.members()) > REFINE * size {
+            let mut correction = vec![0.0; self.dz.len()];
+            for &j in self.active.members() {
+                correction[j] = -self.dw[j];
+            }
+            self.counts.entries_solved += self.factor.solve(&mut correction);
+            for &j in self.active.members() {
+                self.dz[j] += correction[j];
+            }
+            self.multiply_direction(i);
+        }
+    }
+
+    /// `dz` of [`Self::direction`], as accurate as the factor.
+    pub(super) fn solve_direction(&mut self, i: usize) {
         for &j in &self.moving {
             self.dz[j] = 0.0;
         }
@@ -100,19 +118,6 @@ impl Solver {
         }
         self.counts.entries_solved += self.factor.solve(&mut self.dz);
         self.dz[i] = 1.0;
-        self.multiply_direction(i);
-        let size = largest(&self.dz, self.active.members()).max(1.0);
-        if largest(&self.dw, self.active.members()) > REFINE * size {
-            let mut correction = vec![0.0; self.dz.len()];
-            for &j in self.active.members() {
-                correction[j] = -self.dw[j];
-            }
-            self.counts.entries_solved += self.factor.solve(&mut correction);
-            for &j in self.active.members() {
-                self.dz[j] += correction[j];
-            }
-            self.multiply_direction(i);
-        }
     }
 
     /// `dw = M dz`, and the rows that it reaches.
@@ -206,7 +211,7 @@ impl Solver {
         }
     }
 
-    fn insert_or_refactor(&mut self, j: usize) -> bool {
+    pub(super) fn insert_or_refactor(&mut self, j: usize) -> bool {
         if self.enter(j) {
             return true;
         }

@@ -71,7 +71,7 @@ impl Solver {
     }
 
     /// Largest `|w|` on the active rows, where it should be zero.
-    fn active_residual(&self) -> f64 {
+    pub(super) fn active_residual(&self) -> f64 {
         largest(&self.w, self.active.members())
     }
 

@@ -2,7 +2,7 @@
 
 use crate::{
     problems::{gram, integer_rows, integer_vector, problem, random, rows, vector},
-    verify::{SAME_W, assert_same_w, assert_solves, solve_both},
+    verify::{SAME_W, assert_same_w, assert_solves, solve_by_all},
 };
 use drystone_lcp::{Problem, Status};
 use rand::Rng;
@@ -51,7 +51,7 @@ fn enumerate(problem: &Problem) -> Option<Vec<f64>> {
 }
 
 fn compare(problem: &Problem, context: &str) -> bool {
-    let solution = solve_both(problem, context);
+    let solution = solve_by_all(problem, context);
     let Some(expected) = enumerate(problem) else {
         assert_eq!(solution.status, Status::NoSolution, "{context}: no basis is feasible");
         return false;

@@ -2,7 +2,7 @@
 
 use crate::{
     problems::{gram, integer_rows, problem, random, vector},
-    verify::{assert_answer, solve_both},
+    verify::{assert_answer, solve_by_all},
 };
 use drystone_lcp::{Lemke, Method, Problem, Settings, Status};
 use rand::{Rng, seq::SliceRandom};
@@ -38,7 +38,7 @@ fn least_squares_with_integers() {
         let g = integer_rows(&mut rng, rank, n);
         let b: Vec<f64> = (0..rank).map(|_| f64::from(rng.random_range(-1..=1))).collect();
         let q = (0..n).map(|j| -(0..rank).map(|r| g[r][j] * b[r]).sum::<f64>()).collect();
-        let solution = solve_both(&problem(&gram(&g, n), q), &format!("case {case}, {rank} x {n}"));
+        let solution = solve_by_all(&problem(&gram(&g, n), q), &format!("case {case}, {rank} x {n}"));
         assert_eq!(solution.status, Status::Solved, "case {case}: least squares always have a solution");
     }
 }

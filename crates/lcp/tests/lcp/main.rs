@@ -1,9 +1,11 @@
 //! Tests of the solver crate by topic, in one binary. Answers are checked from `M` and `q` alone (`verify`).
 
 mod bad_input;
+mod block;
 mod brute_force;
 mod contact;
 mod cycling;
+mod lemke_reuse;
 mod masked;
 mod problems;
 mod random;

@@ -5,7 +5,7 @@ use crate::{
         badly_scaled, degenerate_q, feasible_q, gram, integer_rows, integer_vector, problem, random, repeat_columns,
         rows, vector,
     },
-    verify::solve_both,
+    verify::solve_by_all,
 };
 use drystone_lcp::{Problem, SparseColumns, Status};
 use rand::Rng;
@@ -23,7 +23,7 @@ fn positive_definite() {
         let n = size(&mut rng);
         let m = gram(&rows(&mut rng, n + 2, n), n);
         let q = vector(&mut rng, n);
-        let solution = solve_both(&problem(&m, q), &format!("case {case}"));
+        let solution = solve_by_all(&problem(&m, q), &format!("case {case}"));
         assert_eq!(solution.status, Status::Solved, "case {case}: a positive definite problem has a solution");
     }
 }
@@ -37,7 +37,7 @@ fn semidefinite_of_every_rank_and_feasible() {
         let m = gram(&rows(&mut rng, rank, n), n);
         let q = feasible_q(&mut rng, &m, n);
         let context = format!("case {case}, n = {n}, rank = {rank}");
-        let solution = solve_both(&problem(&m, q), &context);
+        let solution = solve_by_all(&problem(&m, q), &context);
         assert_eq!(solution.status, Status::Solved, "{context}: feasible and semidefinite, so solvable");
     }
 }
@@ -51,7 +51,7 @@ fn semidefinite_of_every_rank_and_any_q() {
         let rank = rng.random_range(0..=n);
         let m = gram(&rows(&mut rng, rank, n), n);
         let q = vector(&mut rng, n);
-        match solve_both(&problem(&m, q), &format!("case {case}, n = {n}, rank = {rank}")).status {
+        match solve_by_all(&problem(&m, q), &format!("case {case}, n = {n}, rank = {rank}")).status {
             Status::Solved => solved += 1,
             _ => without += 1,
         }
@@ -68,7 +68,7 @@ fn degenerate_solutions() {
         let m = gram(&integer_rows(&mut rng, rank, n), n);
         let q = degenerate_q(&mut rng, &m, n);
         let context = format!("case {case}, n = {n}, rank = {rank}");
-        assert_eq!(solve_both(&problem(&m, q), &context).status, Status::Solved, "{context}");
+        assert_eq!(solve_by_all(&problem(&m, q), &context).status, Status::Solved, "{context}");
     }
 }
 
@@ -84,7 +84,7 @@ fn repeated_rows_and_columns() {
         let feasible = rng.random_bool(0.5);
         let q = if feasible { feasible_q(&mut rng, &m, n) } else { vector(&mut rng, n) };
         let context = format!("case {case}, n = {n}, rank = {rank}");
-        let solution = solve_both(&problem(&m, q), &context);
+        let solution = solve_by_all(&problem(&m, q), &context);
         assert!(!feasible || solution.status == Status::Solved, "{context}: {:?}", solution.status);
     }
 }
@@ -101,7 +101,7 @@ fn integer_matrices_full_of_ties() {
         }
         let m = gram(&g, n);
         let q = integer_vector(&mut rng, n);
-        solve_both(&problem(&m, q), &format!("case {case}, n = {n}, rank = {rank}"));
+        solve_by_all(&problem(&m, q), &format!("case {case}, n = {n}, rank = {rank}"));
     }
 }
 
@@ -115,9 +115,9 @@ fn badly_scaled_over_twelve_orders() {
         let m = gram(&rows(&mut rng, rank, n), n);
         let q = if case % 3 == 0 { vector(&mut rng, n) } else { feasible_q(&mut rng, &m, n) };
         let context = format!("case {case}, n = {n}, rank = {rank}");
-        let plain = solve_both(&problem(&m, q.clone()), &context);
+        let plain = solve_by_all(&problem(&m, q.clone()), &context);
         let (m, q) = badly_scaled(&mut rng, &m, &q);
-        let scaled = solve_both(&problem(&m, q), &format!("{context}, badly scaled"));
+        let scaled = solve_by_all(&problem(&m, q), &format!("{context}, badly scaled"));
         assert_eq!(plain.status, scaled.status, "{context}: scaling rows and columns does not change solvability");
     }
 }
@@ -133,7 +133,7 @@ fn all_numbers_huge_or_tiny() {
             let m: Vec<f64> = m.iter().map(|value| value * size_m).collect();
             let q: Vec<f64> = q.iter().map(|value| value * size_q).collect();
             let context = format!("case {case}, M * {size_m:e}, q * {size_q:e}");
-            assert_eq!(solve_both(&problem(&m, q), &context).status, Status::Solved, "{context}");
+            assert_eq!(solve_by_all(&problem(&m, q), &context).status, Status::Solved, "{context}");
         }
     }
 }
@@ -157,7 +157,7 @@ fn large_and_sparse() {
         let load = |i: usize, u: f64| if (i / 20).is_multiple_of(2) { -u } else { 3.0 * u };
         let q = (0..n).map(|i| load(i, rng.random_range(0.0..1.0))).collect();
         let problem = Problem::new(m, q).unwrap();
-        assert_eq!(solve_both(&problem, &format!("case {case}")).status, Status::Solved);
+        assert_eq!(solve_by_all(&problem, &format!("case {case}")).status, Status::Solved);
     }
 }
 
@@ -174,6 +174,6 @@ fn large_sparse_and_singular() {
         }
         let m = gram(&g, n);
         let q = if case % 2 == 0 { feasible_q(&mut rng, &m, n) } else { degenerate_q(&mut rng, &m, n) };
-        assert_eq!(solve_both(&problem(&m, q), &format!("case {case}")).status, Status::Solved, "case {case}");
+        assert_eq!(solve_by_all(&problem(&m, q), &format!("case {case}")).status, Status::Solved, "case {case}");
     }
 }

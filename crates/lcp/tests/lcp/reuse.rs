@@ -1,12 +1,13 @@
 //! Theorem 1 of Loomis and Balkcom (2006): a start from the solution of a principal sub-problem on k rows ends
-//! in at most n - k major cycles, with the same answer. And every reason to refuse a start.
+//! in at most n - k major cycles, with the same answer. The other methods give that answer from the start as well. And
+//! every reason to refuse a start.
 
 use crate::{
     contact::Wall,
     problems::{
         badly_scaled, feasible_q, gram, integer_rows, integer_vector, problem, random, repeat_columns, rows, vector,
     },
-    verify::{SAME_W, assert_answer, assert_same_w, assert_solves},
+    verify::{OTHERS, SAME_W, assert_answer, assert_same_w, assert_solves},
 };
 use drystone_lcp::{Dantzig, LcpError, Method, Problem, Settings, Solver, Start, StartError, Status};
 use rand::{Rng, seq::SliceRandom};
@@ -34,6 +35,16 @@ fn theorem_one(rng: &mut impl Rng, problem: &Problem, context: &str) -> bool {
     assert!(from_part.counts.major_cycles <= n - k, "{context}: k = {k}, {:?}", from_part.counts);
     if fresh.status == Status::Solved {
         assert_same_w(problem, &from_part.z, &fresh.z, SAME_W, context);
+    }
+    for method in OTHERS {
+        let context = format!("{context}, {}", method.name());
+        let solution = method.solve(problem, Some(&start), &Settings::default());
+        let solution = solution.unwrap_or_else(|error| panic!("{context}: {error}"));
+        assert_answer(problem, &solution, &context);
+        assert_eq!(solution.status, fresh.status, "{context}");
+        if fresh.status == Status::Solved {
+            assert_same_w(problem, &solution.z, &fresh.z, SAME_W, &context);
+        }
     }
     true
 }
@@ -83,6 +94,11 @@ fn a_complete_solution_as_start_needs_no_work() {
         let again = solve(&problem, Some(&Start { indices: (0..n).collect(), z: first.z })).unwrap();
         assert_eq!((again.status, again.counts.pivots), (Status::Solved, 0), "case {case}");
         assert_solves(&problem, &again.z, &format!("case {case}"));
+        for method in OTHERS {
+            let start = Start { indices: (0..n).collect(), z: again.z.clone() };
+            let again = method.solve(&problem, Some(&start), &Settings::default()).unwrap();
+            assert_eq!((again.status, again.counts.pivots), (Status::Solved, 0), "case {case}, {}", method.name());
+        }
     }
 }
 
@@ -99,10 +115,13 @@ fn a_start_with_dependent_rows_is_reduced_to_a_basis() {
         // w = M z + q = 0 everywhere: z is a solution with every row active.
         let q = (0..n).map(|i| -(0..n).map(|j| m[i * n + j] * z[j]).sum::<f64>()).collect();
         let problem = problem(&m, q);
-        let solution = solve(&problem, Some(&Start { indices: (0..n).collect(), z })).unwrap();
-        assert_eq!(solution.status, Status::Solved, "case {case}");
-        assert_eq!(solution.counts.major_cycles, 0, "case {case}");
-        assert_solves(&problem, &solution.z, &format!("case {case}"));
+        let start = Start { indices: (0..n).collect(), z };
+        for method in [&Dantzig as &dyn Method].into_iter().chain(OTHERS) {
+            let solution = method.solve(&problem, Some(&start), &Settings::default()).unwrap();
+            assert_eq!(solution.status, Status::Solved, "case {case}, {}", method.name());
+            assert_eq!(solution.counts.major_cycles, 0, "case {case}, {}", method.name());
+            assert_solves(&problem, &solution.z, &format!("case {case}, {}", method.name()));
+        }
     }
 }
 
@@ -120,12 +139,19 @@ fn two_rows() -> Problem {
     problem(&[2.0, 1.0, 1.0, 2.0], vec![-2.0, -3.0])
 }
 
+/// The reason, which is the same for every method.
 fn refusal(indices: &[usize], z: &[f64]) -> StartError {
     let start = Start { indices: indices.to_vec(), z: z.to_vec() };
-    match solve(&two_rows(), Some(&start)) {
+    let reason = |method: &dyn Method| match method.solve(&two_rows(), Some(&start), &Settings::default()) {
         Err(LcpError::Start(error)) => error,
         other => panic!("{other:?}"),
+    };
+    let dantzig = reason(&Dantzig);
+    for method in OTHERS {
+        // Text, because a NaN does not equal itself.
+        assert_eq!(reason(method).to_string(), dantzig.to_string(), "{}", method.name());
     }
+    dantzig
 }
 
 #[test]

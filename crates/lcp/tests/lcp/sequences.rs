@@ -1,12 +1,13 @@
 //! Sequences of related problems: rows come and go, q changes, states are rolled back to. Every answer is compared with a
-//! fresh solve of the rows present, and the work with that of the fresh solves.
+//! fresh solve of the rows present, and the work with that of the fresh solves. By Dantzig's method, by block exchanges, and
+//! by one after the other.
 
 use crate::{
     contact::Wall,
     problems::{badly_scaled, feasible_q, gram, integer_rows, problem, random, repeat_columns, rows},
     verify::{RESIDUAL, SAME_W, assert_answer, assert_same_w, assert_solves},
 };
-use drystone_lcp::{Dantzig, Method, Problem, Settings, Snapshot, Solver, Status, cone::Columns, residual};
+use drystone_lcp::{Block, Dantzig, Method, Problem, Settings, Snapshot, Solver, Status, cone::Columns, residual};
 use rand::{
     Rng,
     seq::{IndexedRandom, SliceRandom},
@@ -21,9 +22,19 @@ struct Work {
     without_solution: usize,
 }
 
+/// How a step is solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum By {
+    Dantzig,
+    Blocks,
+    Turns,
+}
+
 /// A solver, and what it should hold.
 struct Walk {
     solver: Solver,
+    by: By,
+    steps: usize,
     present: Vec<usize>,
     q: Vec<f64>,
     saved: Vec<(Snapshot, Vec<usize>, Vec<f64>)>,
@@ -34,7 +45,8 @@ impl Walk {
     fn new(problem: Problem) -> Self {
         let q = problem.q().to_vec();
         let solver = Solver::new(problem, Settings::default()).unwrap();
-        Self { solver, present: Vec::new(), q, saved: Vec::new(), work: Work::default() }
+        let (saved, work) = (Vec::new(), Work::default());
+        Self { solver, by: By::Dantzig, steps: 0, present: Vec::new(), q, saved, work }
     }
 
     fn add(&mut self, rng: &mut Pcg64Mcg, most: usize) {
@@ -79,13 +91,17 @@ impl Walk {
     /// Solves, and compares with a fresh solve of the rows present.
     fn solve(&mut self, context: &str) {
         let before = self.solver.counts();
-        let status = self.solver.solve().unwrap_or_else(|error| panic!("{context}: {error}"));
+        self.steps += 1;
+        let blocks = self.by == By::Blocks || self.by == By::Turns && self.steps.is_multiple_of(2);
+        let status = if blocks { self.solver.solve_by_blocks() } else { self.solver.solve() };
+        let status = status.unwrap_or_else(|error| panic!("{context}: {error}"));
         self.present.sort_unstable();
         assert_eq!(self.solver.rows(), self.present, "{context}");
         assert_eq!(self.solver.problem().q(), self.q, "{context}");
         let complete = Problem::new(self.solver.problem().m().clone(), self.q.clone()).unwrap();
         let part = complete.principal(&self.present);
-        let fresh = Dantzig.solve(&part, None, &Settings::default()).unwrap();
+        let method: &dyn Method = if self.by == By::Blocks { &Block } else { &Dantzig };
+        let fresh = method.solve(&part, None, &Settings::default()).unwrap();
         assert_answer(&part, &fresh, context);
         assert_eq!(status, fresh.status, "{context}");
         self.work.kept += (self.solver.counts() - before).pivots;
@@ -108,10 +124,10 @@ impl Walk {
 }
 
 /// `others`: further q for which the complete problem is feasible.
-fn walk(rng: &mut Pcg64Mcg, problem: Problem, others: &[Vec<f64>], steps: usize, context: &str) -> Work {
+fn walk(rng: &mut Pcg64Mcg, problem: Problem, others: &[Vec<f64>], steps: usize, by: By, context: &str) -> Work {
     let n = problem.len();
     let most = 4.max(n / 10);
-    let mut walk = Walk::new(problem);
+    let mut walk = Walk { by, ..Walk::new(problem) };
     walk.save();
     for step in 0..steps {
         // Now and then several changes before one solve.
@@ -141,9 +157,23 @@ fn total(a: Work, b: Work) -> Work {
 
 #[test]
 fn random_sequences_over_random_problems() {
-    let mut rng = random(70);
+    sequences_over_random_problems(By::Dantzig, 70, 250);
+}
+
+#[test]
+fn random_sequences_by_blocks() {
+    sequences_over_random_problems(By::Blocks, 72, 250);
+}
+
+#[test]
+fn random_sequences_by_turns() {
+    sequences_over_random_problems(By::Turns, 73, 100);
+}
+
+fn sequences_over_random_problems(by: By, seed: u64, cases: usize) {
+    let mut rng = random(seed);
     let mut work = Work::default();
-    for case in 0..250 {
+    for case in 0..cases {
         let n = rng.random_range(1..=40);
         let rank = rng.random_range(1..=n);
         let mut g = if case % 2 == 0 { integer_rows(&mut rng, rank, n) } else { rows(&mut rng, rank, n) };
@@ -157,10 +187,10 @@ fn random_sequences_over_random_problems() {
         let (m, q) = if case % 5 == 0 { scaled } else { (m, q) };
         let others = if case % 5 == 0 { vec![q.clone()] } else { others };
         let context = format!("case {case}, n = {n}, rank = {rank}");
-        work = total(work, walk(&mut rng, problem(&m, q), &others, 30, &context));
+        work = total(work, walk(&mut rng, problem(&m, q), &others, 30, by, &context));
     }
-    eprintln!("random: {work:?}");
-    assert!(work.without_solution > 20, "parts without a solution must occur: {work:?}");
+    eprintln!("random, {by:?}: {work:?}");
+    assert!(5 * work.without_solution > cases / 3, "parts without a solution must occur: {work:?}");
     assert!(3 * work.kept < 2 * work.fresh, "{work:?}");
 }
 
@@ -168,14 +198,15 @@ fn random_sequences_over_random_problems() {
 #[test]
 fn random_sequences_over_walls() {
     let mut rng = random(71);
-    for friction in [None, Some(0.4)] {
+    for (friction, by) in [None, Some(0.4)].into_iter().flat_map(|f| [(f, By::Dantzig), (f, By::Blocks)]) {
         for wall in [Wall::pyramid(8, friction), Wall::column(40, friction)] {
             let problem = wall.problem();
             let others: Vec<Vec<f64>> =
                 (1..4).map(|k| problem.q().iter().map(|q| q * f64::from(k)).collect()).collect();
             let blocks = wall.centres.len();
-            let work = walk(&mut rng, problem, &others, 80, &format!("{blocks} blocks, friction {friction:?}"));
-            eprintln!("{blocks} blocks, friction {friction:?}: {work:?}");
+            let context = format!("{blocks} blocks, friction {friction:?}, {by:?}");
+            let work = walk(&mut rng, problem, &others, 80, by, &context);
+            eprintln!("{context}: {work:?}");
             assert!(3 * work.kept < 2 * work.fresh, "{work:?}");
         }
     }

@@ -1,6 +1,6 @@
 //! Checks of an answer from `M` and `q` alone: nothing the solver says about itself is trusted.
 
-use drystone_lcp::{Dantzig, Lemke, Method, Problem, Settings, Solution, Status};
+use drystone_lcp::{Block, Dantzig, Lemke, Method, Problem, Settings, Solution, Status};
 
 /// Contract of the crate: the residual of a solved problem, in its own scale.
 pub const RESIDUAL: f64 = 1e-9;
@@ -91,15 +91,18 @@ pub fn assert_same_w(problem: &Problem, z: &[f64], expected: &[f64], tolerance: 
     }
 }
 
-/// Solves by both methods, checks both answers, and that they are the same answer. Returns Dantzig's.
-pub fn solve_both(problem: &Problem, context: &str) -> Solution {
+/// The methods that are compared with Dantzig's.
+pub const OTHERS: [&dyn Method; 2] = [&Lemke, &Block];
+
+/// Solves by every method, checks the answers, and that they are the same answer. Returns Dantzig's.
+pub fn solve_by_all(problem: &Problem, context: &str) -> Solution {
     let solve = |method: &dyn Method| {
         let context = format!("{context}, {}", method.name());
         let solution = method.solve(problem, None, &Settings::default()).unwrap_or_else(|e| panic!("{context}: {e}"));
         assert_answer(problem, &solution, &context);
         solution
     };
-    let (dantzig, lemke) = (solve(&Dantzig), solve(&Lemke));
+    let dantzig = solve(&Dantzig);
     let counts = dantzig.counts;
     // A row driven to feasibility is guarded from then on. A major cycle ends with a pivot, or, rarely, without.
     assert!(counts.major_cycles <= problem.len(), "{context}: {counts:?}");
@@ -107,9 +110,12 @@ pub fn solve_both(problem: &Problem, context: &str) -> Solution {
         (counts.minor_cycles..=counts.minor_cycles + counts.major_cycles).contains(&counts.pivots),
         "{context}: {counts:?}"
     );
-    assert_eq!(dantzig.status, lemke.status, "{context}");
-    if dantzig.status == Status::Solved {
-        assert_same_w(problem, &dantzig.z, &lemke.z, SAME_W, context);
+    for method in OTHERS {
+        let other = solve(method);
+        assert_eq!(dantzig.status, other.status, "{context}, {}", method.name());
+        if dantzig.status == Status::Solved {
+            assert_same_w(problem, &dantzig.z, &other.z, SAME_W, &format!("{context}, {}", method.name()));
+        }
     }
     dantzig
 }

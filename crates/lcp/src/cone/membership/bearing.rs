@@ -8,7 +8,7 @@
 //! B^-1 r has no entry that lowers a force or moves a unit column,   r = what a unit of the column does to older rows
 //! ```
 //!
-//! *Lemma 3.* Let every pivot of a solve have put a column of the newest group into a row of that group. A column of it
+//! *The bearing lemma.* Let every pivot of a solve have put a column of the newest group into a row of that group. A column of it
 //! bears if `B^-1 r`, walked through the groups it presses on and no further, raises none but bearing columns.
 //! *Proof.* `B` is block triangular by groups: what r reaches beyond these groups is the sum of what the bearing
 //! columns raised pass on, and that only raises forces, by induction on the groups.
@@ -84,7 +84,7 @@ impl ConeSolver {
         }
     }
 
-    /// Looks which columns of the newest group bear (Lemma 3).
+    /// Looks which columns of the newest group bear (the bearing lemma).
     pub(super) fn certify_newest(&mut self) {
         if std::mem::take(&mut self.mixed) {
             return;

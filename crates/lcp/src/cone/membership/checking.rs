@@ -102,7 +102,7 @@ impl ConeSolver {
     /// Whether y proves that `h` is outside: `y' g <= 0` for every present column, up to rounding, and `y' h > 0`, which is
     /// the infeasibility that is left by another route: if they differ, the values are worn.
     pub(super) fn certifies(&self) -> bool {
-        let size = self.y.iter().fold(0.0_f64, |size, (_, value)| size.max(value.abs()));
+        let size = self.y.largest();
         let power: f64 = self.y.iter().map(|(row, value)| value * self.h[row as usize]).sum();
         let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
         let rises = |&(j, _): &(u32, f64)| {

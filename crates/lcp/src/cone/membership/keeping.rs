@@ -1,6 +1,33 @@
 //! What is kept: marks to return to, and the factor built again when its digits are worn.
 
-use super::{Basic, Change, ConeSolver, Mark, PIVOT, infeasible};
+use super::{
+    super::fill_order::fill_reducing,
+    {Basic, Change, ConeSolver, ENTRIES, FILL, Mark, PIVOT, infeasible},
+};
+
+/// What is basic, wherever it stands: generators, and the unit columns of rows.
+#[derive(Debug, Clone, Default)]
+pub(super) struct BasisSet {
+    pub columns: Vec<u32>,
+    /// Whether the unit column of each row is basic.
+    pub units: Vec<bool>,
+}
+
+impl BasisSet {
+    fn put(&mut self, row: u32, basic: Basic) {
+        match basic {
+            Basic::Unit => self.units[row as usize] = true,
+            Basic::Column(j) => self.columns.push(j),
+        }
+    }
+
+    fn take(&mut self, row: u32, basic: Basic) {
+        match basic {
+            Basic::Unit => self.units[row as usize] = false,
+            Basic::Column(j) => self.columns.retain(|&other| other != j),
+        }
+    }
+}
 
 impl ConeSolver {
     /// The state as it is, to come back to with [`Self::roll_back`]. Marks are taken back last first.
@@ -23,7 +50,7 @@ impl ConeSolver {
         let same_positions = mark.rebuilds == self.counts.refactorisations;
         let exact = self.last_mark == Some(mark);
         let mut gone = Vec::new();
-        let mut basic_columns = if same_positions { Vec::new() } else { self.basic_columns() };
+        let mut basis = if same_positions { BasisSet::default() } else { self.basis_set() };
         while self.changes.len() > mark.changes
             && let Some(change) = self.changes.pop()
         {
@@ -34,11 +61,9 @@ impl ConeSolver {
                     }
                     self.put(position, left);
                 }
-                Change::Pivot { entered, left, .. } => {
-                    basic_columns.retain(|&j| entered != Basic::Column(j));
-                    if let Basic::Column(j) = left {
-                        basic_columns.push(j);
-                    }
+                Change::Pivot { position, entered, left } => {
+                    basis.take(position, entered);
+                    basis.put(position, left);
                 }
                 Change::Gone { row, group } => {
                     self.present[row as usize] = true;
@@ -78,7 +103,7 @@ impl ConeSolver {
             }
         } else {
             if !same_positions {
-                self.rebuild(&basic_columns);
+                self.rebuild(&basis);
             }
             self.suspects.clear();
             self.recompute_values();
@@ -89,8 +114,10 @@ impl ConeSolver {
         self.last_mark = exact.then_some(mark);
     }
 
-    pub(super) fn basic_columns(&self) -> Vec<u32> {
-        self.rows.iter().filter_map(|&p| self.column_in(p)).collect()
+    /// The basis as a set.
+    pub(super) fn basis_set(&self) -> BasisSet {
+        let units = (0..self.basic.len() as u32).map(|p| self.column_in(p).is_none()).collect();
+        BasisSet { columns: self.rows.iter().filter_map(|&p| self.column_in(p)).collect(), units }
     }
 
     /// The column that is basic in a position, if it is not the unit column.
@@ -101,11 +128,11 @@ impl ConeSolver {
         }
     }
 
-    /// Builds the factor again if a pivot showed lost digits. None if that fails.
-    pub(super) fn rebuild_if_shaky(&mut self) -> Option<()> {
-        if std::mem::take(&mut self.shaky) {
-            let columns = self.basic_columns();
-            if !self.rebuild(&columns) {
+    /// Builds the factor again if a pivot showed lost digits, or if it has filled up. None if that fails.
+    pub(super) fn rebuild_if_worn(&mut self) -> Option<()> {
+        let full = self.factor.stored() > self.most_entries.max(ENTRIES * self.rows.len());
+        if std::mem::take(&mut self.shaky) || full {
+            if !self.rebuild(&self.basis_set()) {
                 return None;
             }
             self.recompute_values();
@@ -114,9 +141,9 @@ impl ConeSolver {
         Some(())
     }
 
-    /// Builds the factor again from these columns, each in the free position where it is largest; one that depends on
-    /// those before it stays out. False if the factor refuses one.
-    pub(super) fn rebuild(&mut self, columns: &[u32]) -> bool {
+    /// Builds the factor again from a basis, in an order that keeps it sparse, each column in the free position where it is
+    /// largest; one that depends on those before it stays out. False if the factor refuses one.
+    pub(super) fn rebuild(&mut self, basis: &BasisSet) -> bool {
         self.counts.refactorisations += 1;
         self.last_mark = None;
         self.factor.reset();
@@ -127,10 +154,10 @@ impl ConeSolver {
                 self.put(p, Basic::Unit);
             }
         }
-        for &j in columns {
+        for j in fill_reducing(&self.g, &basis.columns) {
             self.column_spike(j);
             self.direction_from_spike();
-            let free = |&&(p, _): &&(u32, f64)| self.basic[p as usize] == Basic::Unit;
+            let free = |&&(p, _): &&(u32, f64)| !basis.units[p as usize] && self.basic[p as usize] == Basic::Unit;
             let best = self.direction.iter().filter(free).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
             let Some(&(p, _)) = best.filter(|best| best.1.abs() > PIVOT) else { continue };
             if self.factor.replace(p, &self.spike).is_none() {
@@ -138,6 +165,7 @@ impl ConeSolver {
             }
             self.put(p, Basic::Column(j));
         }
+        self.most_entries = FILL * self.factor.stored();
         true
     }
 

@@ -20,11 +20,13 @@ impl ConeSolver {
             }
         }
         let mut felt = Vec::new();
-        if positions.into_iter().all(|position| self.put_unit(position, &mut felt).is_some()) {
+        if self.put_units(positions, &mut felt) {
             self.pass_on(&felt);
         } else {
-            let mut remaining = self.basic_columns();
-            remaining.retain(|&j| self.missing[j as usize] == 0);
+            let mut remaining = self.basis_set();
+            remaining.columns.retain(|&j| self.missing[j as usize] == 0);
+            remaining.units.fill(false); // whichever rows the columns leave over
+            rows.iter().for_each(|&row| remaining.units[row as usize] = true);
             self.rebuild(&remaining);
             self.recompute_values();
         }
@@ -48,6 +50,19 @@ impl ConeSolver {
         }
         self.changes.push(Change::Gone { row, group: self.factor.group(row) });
         self.leave_group(row);
+    }
+
+    /// Puts unit columns into all of these positions, in an order in which that works. False if there is none, or an unlucky
+    /// start.
+    fn put_units(&mut self, mut positions: Vec<u32>, felt: &mut Vec<u32>) -> bool {
+        while !positions.is_empty() {
+            let before = positions.len();
+            positions.retain(|&position| self.put_unit(position, felt).is_none());
+            if positions.len() == before {
+                return false;
+            }
+        }
+        true
     }
 
     /// Puts the unit column of its row into a position, and notes the rows that feel that its column has gone. None if the

@@ -11,7 +11,7 @@ impl ConeSolver {
     pub(super) fn phase_one(&mut self, limit: usize) -> Option<Membership> {
         let (mut stalled, mut best) = (0, f64::INFINITY);
         loop {
-            self.rebuild_if_shaky()?;
+            self.rebuild_if_worn()?;
             let x = &self.x;
             let basic = &self.basic;
             self.suspects.retain(|&p| infeasible(basic[p as usize], x[p as usize]) != 0.0);
@@ -30,9 +30,10 @@ impl ConeSolver {
                 continue;
             }
             let least_index = stalled > STALL;
+            let floor = RATE * self.y.largest();
             let (missing, position) = (&self.missing, &self.position);
             let allowed = |j: u32| missing[j as usize] == 0 && position[j as usize] == OUT;
-            let Some(entering) = self.pricing.entering(&self.g, &self.y, allowed, RATE, least_index) else {
+            let Some(entering) = self.pricing.entering(&self.g, &self.y, allowed, floor, least_index) else {
                 return Some(Membership::Outside);
             };
             self.column_spike(entering);

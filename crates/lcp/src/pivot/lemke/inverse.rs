@@ -1,5 +1,6 @@
 //! The explicit inverse of a basis, which the lexicographic rule reads row by row.
 
+use super::system::{System, Variable};
 use faer::{
     Mat,
     linalg::solvers::{DenseSolveCore, Solve},
@@ -27,10 +28,9 @@ impl BasisInverse {
         &self.rows[r * self.n..(r + 1) * self.n]
     }
 
-    /// `B^-1 a` for a sparse `a`.
-    pub fn apply(&self, (indices, values): (&[usize], &[f64])) -> Vec<f64> {
-        let dot = |row: &[f64]| indices.iter().zip(values).map(|(&i, value)| row[i] * value).sum();
-        (0..self.n).map(|r| dot(self.row(r))).collect()
+    /// `B^-1 a` for the column of a variable.
+    pub fn apply(&self, system: &System, variable: Variable) -> Vec<f64> {
+        (0..self.n).map(|r| system.dot(variable, self.row(r))).collect()
     }
 
     /// The column at place `r` of B is replaced by `a`, with `direction = B^-1 a`.
@@ -49,22 +49,108 @@ impl BasisInverse {
         self.age += 1;
     }
 
-    /// Computes the inverse from B itself by LU with partial pivoting, and `B^-1 q` with one step of iterative
-    /// refinement. `None` if B is numerically singular.
-    pub fn rebuild(&mut self, b: &Mat<f64>, q: &[f64]) -> Option<Vec<f64>> {
-        let lu = b.partial_piv_lu();
+    /// Computes the inverse from B itself, and `B^-1 q` with one step of iterative refinement. `None` if B is numerically
+    /// singular.
+    ///
+    /// A basic `w_i` is a unit column, so only the block of the other basic variables on the rows without one is
+    /// factored, by LU with partial pivoting: `x_K = B_RK^-1 a_R`, `x_i = a_i - B_iK x_K`.
+    pub fn rebuild(&mut self, system: &System, basic: &[Variable]) -> Option<Vec<f64>> {
+        let shape = Shape::of(basic);
+        let lu = shape.block(system).partial_piv_lu();
+        let solve = |a: &[f64]| {
+            let right = Mat::from_fn(shape.rows.len(), 1, |r, _| a[shape.rows[r]]);
+            let found = lu.solve(&right);
+            shape.complete(system, a, |k| found[(k, 0)])
+        };
+        let mut x = solve(system.q);
+        let correction = solve(&system.difference(basic, &x, system.q));
+        x.iter_mut().zip(correction).for_each(|(x, correction)| *x += correction);
+
         let inverse = lu.inverse();
-        for (r, row) in self.rows.chunks_exact_mut(self.n).enumerate() {
-            for (j, value) in row.iter_mut().enumerate() {
-                *value = inverse[(r, j)];
+        self.rows.fill(0.0);
+        self.age = 0;
+        for (k, &(place, _)) in shape.others.iter().enumerate() {
+            for (r, &row) in shape.rows.iter().enumerate() {
+                self.rows[place * self.n + row] = inverse[(k, r)];
             }
         }
-        self.age = 0;
-        let right = Mat::from_fn(self.n, 1, |i, _| q[i]);
-        let mut x = lu.solve(&right);
-        let correction = lu.solve(&right - b * &x);
-        x += correction;
-        let x: Vec<f64> = (0..self.n).map(|i| x[(i, 0)]).collect();
+        for &(place, i) in &shape.units {
+            self.rows[place * self.n + i] = 1.0;
+        }
+        self.fill_unit_rows(&shape, system);
         (self.rows.iter().chain(&x).all(|value| value.is_finite())).then_some(x)
+    }
+
+    /// Rows of basic `w_i`: `e_i - B_iK` times the rows of the others.
+    fn fill_unit_rows(&mut self, shape: &Shape, system: &System) {
+        for &(place, variable) in &shape.others {
+            let source: Vec<f64> = shape.rows.iter().map(|&r| self.rows[place * self.n + r]).collect();
+            system.for_each(variable, |i, value| {
+                let Some(target) = shape.unit_at[i] else { return };
+                let row = &mut self.rows[target * self.n..(target + 1) * self.n];
+                shape.rows.iter().zip(&source).for_each(|(&r, source)| row[r] -= value * source);
+            });
+        }
+    }
+
+    /// Largest entry.
+    pub fn largest(&self) -> f64 {
+        self.rows.iter().fold(0.0, |size, value| size.max(value.abs()))
+    }
+}
+
+/// Which columns of a basis are unit columns.
+struct Shape {
+    /// (place, i) of every basic `w_i`.
+    units: Vec<(usize, usize)>,
+    /// The place of `w_i`, where it is basic (n).
+    unit_at: Vec<Option<usize>>,
+    /// All other basic variables with their places, K.
+    others: Vec<(usize, Variable)>,
+    /// Rows whose `w` is not basic, R; as many.
+    rows: Vec<usize>,
+}
+
+impl Shape {
+    fn of(basic: &[Variable]) -> Self {
+        let mut unit_at = vec![None; basic.len()];
+        let (mut units, mut others) = (Vec::new(), Vec::new());
+        for (place, &variable) in basic.iter().enumerate() {
+            if let Variable::W(i) = variable {
+                unit_at[i] = Some(place);
+                units.push((place, i));
+            } else {
+                others.push((place, variable));
+            }
+        }
+        let rows = (0..basic.len()).filter(|&i| unit_at[i].is_none()).collect();
+        Self { units, unit_at, others, rows }
+    }
+
+    /// `B_RK`.
+    fn block(&self, system: &System) -> Mat<f64> {
+        let mut at = vec![None; self.unit_at.len()];
+        self.rows.iter().enumerate().for_each(|(r, &row)| at[row] = Some(r));
+        let mut block = Mat::zeros(self.rows.len(), self.others.len());
+        for (k, &(_, variable)) in self.others.iter().enumerate() {
+            system.for_each(variable, |i, value| {
+                if let Some(r) = at[i] {
+                    block[(r, k)] = value;
+                }
+            });
+        }
+        block
+    }
+
+    /// All of x from `x_K`.
+    fn complete(&self, system: &System, a: &[f64], x_k: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut rest = a.to_vec();
+        let mut x = vec![0.0; a.len()];
+        for (k, &(place, variable)) in self.others.iter().enumerate() {
+            x[place] = x_k(k);
+            system.add_to(&mut rest, variable, -x[place]);
+        }
+        self.units.iter().for_each(|&(place, i)| x[place] = rest[i]);
+        x
     }
 }

@@ -1,17 +1,11 @@
-//! The almost complementary path: from `z = 0` with a large `z0`, pivot by pivot, to `z0 = 0` or to a ray.
+//! The almost complementary path: from a basis with a large `z0`, pivot by pivot, to `z0 = 0` or to a ray.
 
-use super::inverse::BasisInverse;
+use super::{
+    inverse::BasisInverse,
+    system::{System, Variable},
+};
 use crate::{matrix::SparseColumns, settings::Settings};
-use faer::Mat;
-
-/// A column of `w - M z - c z0 = q`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Variable {
-    W(usize),
-    Z(usize),
-    /// The artificial `z0` with the covering vector c.
-    Cover,
-}
+use std::borrow::Cow;
 
 /// How the path ended.
 #[derive(Debug, PartialEq)]
@@ -29,11 +23,14 @@ pub(super) enum End {
 /// Basic variables, their values, and the inverse of their columns.
 #[derive(Debug)]
 pub(super) struct Path<'a> {
-    m: &'a SparseColumns,
-    q: &'a [f64],
+    system: System<'a>,
     settings: &'a Settings,
-    /// The covering vector c, positive (n).
-    cover: Vec<f64>,
+    /// The basis B0 that the path starts from, which the lexicographic rule compares rows in; `None` for `w`.
+    start: Option<Vec<Variable>>,
+    /// The order in which the rule compares the entries of two rows (n).
+    order: Vec<usize>,
+    /// `B0^-1 c`: how fast each basic variable of the start grows with `z0` (n), not negative.
+    lift: Vec<f64>,
     /// The variable that every row of the inverse belongs to (n).
     basic: Vec<Variable>,
     inverse: BasisInverse,
@@ -54,13 +51,15 @@ const DRIFT: f64 = 1e-11;
 const LEXICOGRAPHIC_TIE: f64 = 1e-10;
 
 impl<'a> Path<'a> {
+    /// The path from `z = 0` with a positive covering vector.
     pub fn new(m: &'a SparseColumns, q: &'a [f64], settings: &'a Settings, cover: Vec<f64>) -> Self {
         let n = q.len();
         Self {
-            m,
-            q,
             settings,
-            cover,
+            start: None,
+            order: (0..n).collect(),
+            lift: cover.clone(),
+            system: System { m, q, cover },
             basic: (0..n).map(Variable::W).collect(),
             inverse: BasisInverse::identity(n),
             x: q.to_vec(),
@@ -69,14 +68,41 @@ impl<'a> Path<'a> {
         }
     }
 
+    /// The path from the complementary basis with `z` basic on `active`. The covering vector is the one that lifts the
+    /// infeasible basic variables, all alike, and no other: `c = B0 lift`. `order` is that of the lexicographic rule.
+    /// `None` if the basis is numerically singular.
+    pub fn from_basis(
+        m: &'a SparseColumns,
+        q: &'a [f64],
+        settings: &'a Settings,
+        active: &[usize],
+        order: Vec<usize>,
+    ) -> Option<Self> {
+        let n = q.len();
+        let mut path = Self { order, ..Self::new(m, q, settings, vec![0.0; n]) };
+        active.iter().for_each(|&j| path.basic[j] = Variable::Z(j));
+        path.x = path.inverse.rebuild(&path.system, &path.basic)?;
+        if path.inverse.largest() * settings.singular > 1.0 {
+            return None;
+        }
+        let zero = path.zero();
+        let mut cover = vec![0.0; n];
+        for place in 0..n {
+            if path.x[place] < -zero {
+                path.lift[place] = 1.0;
+                path.system.for_each(path.basic[place], |i, value| cover[i] += value);
+            }
+        }
+        path.system.cover = cover;
+        path.start = Some(path.basic.clone());
+        Some(path)
+    }
+
     /// Follows the path to its end.
     pub fn follow(&mut self, limit: usize) -> End {
-        if self.q.iter().all(|&q| q >= 0.0) {
-            return End::Complementary;
-        }
-        let mut direction: Vec<f64> = self.cover.iter().map(|c| -c).collect();
+        let Some(mut row) = self.most_infeasible() else { return End::Complementary };
+        let mut direction: Vec<f64> = self.lift.iter().map(|lift| -lift).collect();
         let mut entering = Variable::Cover;
-        let mut row = self.most_uncovered();
         loop {
             if self.pivots >= limit {
                 return End::Limit;
@@ -98,7 +124,7 @@ impl<'a> Path<'a> {
 
     /// `z` at the point reached (n): basic values, not negative.
     pub fn z(&self) -> Vec<f64> {
-        let mut z = vec![0.0; self.q.len()];
+        let mut z = vec![0.0; self.system.len()];
         for (variable, &x) in self.basic.iter().zip(&self.x) {
             if let Variable::Z(j) = *variable {
                 z[j] = x.max(0.0);
@@ -115,17 +141,32 @@ impl<'a> Path<'a> {
         active
     }
 
-    /// The rows `[x_B, B^-1]` that the rule compares.
+    /// The rows `[x_B, B^-1 B0]` as the rule compares them.
     #[cfg(test)]
     pub fn lexicographic_rows(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.x.iter().enumerate().map(|(r, &x)| [&[x], self.inverse.row(r)].concat())
+        self.x.iter().enumerate().map(|(r, &x)| {
+            let row = self.lexicographic_row(r);
+            std::iter::once(x).chain(self.order.iter().map(|&column| row[column])).collect()
+        })
     }
 
-    /// The row in which `z0` enters: the least `q_i / c_i`. Among equals the last, because `[q_i e_i] / c_i` is
-    /// lexicographically least there, which leaves every other row lexicographically positive.
-    fn most_uncovered(&self) -> usize {
-        let ratio = |i: usize| self.q[i] / self.cover[i];
-        (0..self.q.len()).fold(0, |least, i| if ratio(i) <= ratio(least) { i } else { least })
+    /// Row r of `B^-1 B0`. In terms of B0 the path is that of the problem in which its variables are the `w`.
+    fn lexicographic_row(&self, r: usize) -> Cow<'_, [f64]> {
+        let row = self.inverse.row(r);
+        match &self.start {
+            None => Cow::Borrowed(row),
+            Some(start) => start.iter().map(|&variable| self.system.dot(variable, row)).collect(),
+        }
+    }
+
+    /// The row in which `z0` enters: the least `x_i / lift_i`; `None` if it is not negative. Among equals the last in the
+    /// order of the rule, because `[x_i e_i] / lift_i` is lexicographically least there, which leaves every other row
+    /// lexicographically positive.
+    fn most_infeasible(&self) -> Option<usize> {
+        let infeasible = || self.order.iter().copied().filter(|&i| self.lift[i] > 0.0 && self.x[i] < 0.0);
+        let ratio = |i: usize| self.x[i] / self.lift[i];
+        let least = infeasible().map(ratio).reduce(f64::min)?;
+        infeasible().rfind(|&i| ratio(i) <= least + self.zero())
     }
 
     /// How fast every basic variable falls as the entering one rises. `None` if the basis is singular.
@@ -133,62 +174,60 @@ impl<'a> Path<'a> {
         if self.inverse.age >= RENEW {
             self.renew()?;
         }
-        let direction = self.inverse.apply(self.column(entering).parts());
+        let direction = self.inverse.apply(&self.system, entering);
         if self.inverse.age == 0 || self.drift(entering, &direction) <= DRIFT * largest(&direction).max(1.0) {
             return Some(direction);
         }
         self.renew()?;
-        Some(self.inverse.apply(self.column(entering).parts()))
+        Some(self.inverse.apply(&self.system, entering))
     }
 
     /// Largest entry of `a - B d`.
     fn drift(&self, entering: Variable, direction: &[f64]) -> f64 {
-        let mut difference = vec![0.0; self.q.len()];
-        self.column(entering).add_to(&mut difference, 1.0);
-        for (&variable, &d) in self.basic.iter().zip(direction) {
-            self.column(variable).add_to(&mut difference, -d);
-        }
-        largest(&difference)
+        let mut column = vec![0.0; self.system.len()];
+        self.system.add_to(&mut column, entering, 1.0);
+        largest(&self.system.difference(&self.basic, direction, &column))
     }
 
     fn renew(&mut self) -> Option<()> {
         self.refactorisations += 1;
-        let mut b = Mat::zeros(self.q.len(), self.q.len());
-        for (place, &variable) in self.basic.iter().enumerate() {
-            let column = self.column(variable);
-            let (indices, values) = column.parts();
-            for (&i, &value) in indices.iter().zip(values) {
-                b[(i, place)] = value;
-            }
-        }
-        self.x = self.inverse.rebuild(&b, self.q)?;
+        self.x = self.inverse.rebuild(&self.system, &self.basic)?;
         Some(())
     }
 
+    /// How far below zero a basic variable is still zero.
+    fn zero(&self) -> f64 {
+        self.settings.feasibility * largest(&self.x).max(1.0)
+    }
+
     /// The row whose variable reaches zero first; among ties `z0`, which ends the path, and else the lexicographically
-    /// least row of `[x B^-1] / d` (Eaves 1971). `None` if no variable falls.
+    /// least row of `[x B^-1 B0] / d` (Eaves 1971). `None` if no variable falls.
     fn leaving(&self, direction: &[f64]) -> Option<usize> {
         let floor = self.settings.pivot * largest(direction).max(1.0);
         let falling: Vec<usize> = (0..direction.len()).filter(|&r| direction[r] > floor).collect();
         let step = falling.iter().map(|&r| self.x[r].max(0.0) / direction[r]).reduce(f64::min)?;
-        let zero = self.settings.feasibility * largest(&self.x).max(1.0);
+        let zero = self.zero();
         let mut tied = falling;
         tied.retain(|&r| self.x[r] - step * direction[r] <= zero);
         let cover = tied.iter().find(|&&r| self.basic[r] == Variable::Cover);
         cover.copied().or_else(|| self.lexicographic_least(tied, direction))
     }
 
-    fn lexicographic_least(&self, mut tied: Vec<usize>, direction: &[f64]) -> Option<usize> {
-        let entry = |r: usize, column: usize| self.inverse.row(r)[column] / direction[r];
-        let size = tied.iter().map(|&r| largest(self.inverse.row(r)) / direction[r]).fold(0.0, f64::max);
-        for column in 0..self.q.len() {
-            if tied.len() <= 1 {
+    fn lexicographic_least(&self, tied: Vec<usize>, direction: &[f64]) -> Option<usize> {
+        if tied.len() <= 1 {
+            return tied.first().copied();
+        }
+        let mut rows: Vec<(usize, Cow<'_, [f64]>)> = tied.into_iter().map(|r| (r, self.lexicographic_row(r))).collect();
+        let size = rows.iter().map(|(r, row)| largest(row) / direction[*r]).fold(0.0, f64::max);
+        for &column in &self.order {
+            let entry = |(r, row): &(usize, Cow<'_, [f64]>)| row[column] / direction[*r];
+            let least = rows.iter().map(entry).fold(f64::INFINITY, f64::min);
+            rows.retain(|row| entry(row) <= least + LEXICOGRAPHIC_TIE * size);
+            if rows.len() == 1 {
                 break;
             }
-            let least = tied.iter().map(|&r| entry(r, column)).fold(f64::INFINITY, f64::min);
-            tied.retain(|&r| entry(r, column) <= least + LEXICOGRAPHIC_TIE * size);
         }
-        tied.first().copied()
+        rows.first().map(|(r, _)| *r)
     }
 
     /// One pivot: the entering variable takes the place of the one in `row`, which is returned.
@@ -204,7 +243,7 @@ impl<'a> Path<'a> {
     }
 
     fn ray(&self, entering: Variable, direction: &[f64]) -> Vec<f64> {
-        let mut ray = vec![0.0; self.q.len()];
+        let mut ray = vec![0.0; self.system.len()];
         if let Variable::Z(j) = entering {
             ray[j] = 1.0;
         }
@@ -214,37 +253,6 @@ impl<'a> Path<'a> {
             }
         }
         ray
-    }
-
-    /// The column of a variable in `w - M z - c z0`.
-    fn column(&self, variable: Variable) -> Column {
-        match variable {
-            Variable::W(i) => Column { indices: vec![i], values: vec![1.0] },
-            Variable::Z(j) => {
-                let (indices, values) = self.m.column(j);
-                Column { indices: indices.to_vec(), values: values.iter().map(|value| -value).collect() }
-            }
-            Variable::Cover => {
-                Column { indices: (0..self.cover.len()).collect(), values: self.cover.iter().map(|c| -c).collect() }
-            }
-        }
-    }
-}
-
-struct Column {
-    indices: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Column {
-    fn parts(&self) -> (&[usize], &[f64]) {
-        (&self.indices, &self.values)
-    }
-
-    fn add_to(&self, y: &mut [f64], factor: f64) {
-        for (&i, value) in self.indices.iter().zip(&self.values) {
-            y[i] += factor * value;
-        }
     }
 }
 

@@ -1,0 +1,109 @@
+//! Forces of the intermediate structures of an order: each balances its loads, and is what a fresh check decides.
+
+use drystone::{
+    Scene,
+    check::check_blocks,
+    formulate::{Assembly, BlockSet, ContactForce},
+    plan::{Limits, Quiet, StructureForces, Test, forces_along, plan},
+    scenes,
+};
+
+fn structures(assembly: &Assembly, order: &[usize]) -> Vec<StructureForces> {
+    let mut every = Vec::new();
+    forces_along(
+        assembly,
+        order,
+        |_| true,
+        |structure| {
+            every.push(structure);
+            true
+        },
+    )
+    .unwrap();
+    every
+}
+
+/// Movable blocks of a scene in an order in which it can be put up.
+fn assembly_order(scene: &Scene, assembly: &Assembly) -> Vec<usize> {
+    let bodies = plan(scene, Test::Reuse, Limits::default(), &mut Quiet).unwrap().order;
+    assert_eq!(bodies.len(), assembly.blocks(), "this scene has an order");
+    let block = |body: &usize| (0..assembly.blocks()).find(|&block| assembly.body_index(block) == *body).unwrap();
+    bodies.iter().rev().map(block).collect()
+}
+
+/// Force (N) and moment about the centroid (N m) that are missing to rest, from points and vectors alone.
+fn imbalance(assembly: &Assembly, block: usize, forces: &[ContactForce]) -> f64 {
+    let [cx, cy] = assembly.body(block).pose.position;
+    let mut total = assembly.applied(block);
+    for force in forces {
+        let contact = &assembly.contacts()[force.contact];
+        for (body, sign) in contact.bodies.into_iter().zip([-1.0, 1.0]) {
+            if body == assembly.body_index(block) {
+                let ([x, y], [fx, fy]) = (contact.point, force.force.map(|f| sign * f));
+                total = [total[0] + fx, total[1] + fy, total[2] + (x - cx) * fy - (y - cy) * fx];
+            }
+        }
+    }
+    total.into_iter().fold(0.0, |worst, part| worst.max(part.abs()))
+}
+
+#[test]
+fn every_structure_of_a_plan_is_in_balance() {
+    for scene in [
+        scenes::column(6, 0.0).unwrap(),
+        scenes::pyramid(4, 0.5).unwrap(),
+        scenes::five_blocks(0.5).unwrap(),
+        scenes::wall(4, 3, 3, 0.6).unwrap(),
+        scenes::random_stack(20, 1, 0.0).unwrap(),
+        scenes::random_stack(20, 3, 0.3).unwrap(),
+    ] {
+        let assembly = Assembly::new(&scene).unwrap();
+        let order = assembly_order(&scene, &assembly);
+        for (placed, structure) in structures(&assembly, &order).into_iter().enumerate() {
+            assert_eq!(structure.blocks, placed + 1);
+            let forces = structure.forces.expect("every structure of a plan stands");
+            for &block in &order[..=placed] {
+                let weight = assembly.applied(block)[1].abs();
+                assert!(imbalance(&assembly, block, &forces) <= 1e-8 * weight.max(1.0));
+            }
+            for force in &forces {
+                let friction = assembly.contacts()[force.contact].friction;
+                assert!(force.normal >= -1e-12 && force.tangential.abs() <= friction * force.normal + 1e-9);
+            }
+        }
+    }
+}
+
+/// Rows of a diamond put up one over the other: from some row on it falls, as a fresh check says.
+#[test]
+fn what_falls_has_no_forces() {
+    let scene = scenes::diamond(5, 0.0).unwrap();
+    let assembly = Assembly::new(&scene).unwrap();
+    let order = assembly.upward();
+    let mut present = BlockSet::empty(assembly.blocks());
+    let found = structures(&assembly, &order);
+    for (&block, structure) in order.iter().zip(&found) {
+        present.insert(block);
+        assert_eq!(structure.forces.is_some(), check_blocks(&assembly, &present).stable, "{} blocks", structure.blocks);
+    }
+    assert!(found.iter().any(|structure| structure.forces.is_none()));
+}
+
+#[test]
+fn only_what_is_wanted_is_shown_until_enough() {
+    let scene = scenes::column(8, 0.0).unwrap();
+    let assembly = Assembly::new(&scene).unwrap();
+    let order = assembly_order(&scene, &assembly);
+    let mut shown = Vec::new();
+    forces_along(
+        &assembly,
+        &order,
+        |placed| placed % 2 == 1,
+        |structure| {
+            shown.push(structure.blocks);
+            shown.len() < 3
+        },
+    )
+    .unwrap();
+    assert_eq!(shown, [1, 3, 5]);
+}

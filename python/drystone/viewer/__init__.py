@@ -1,0 +1,65 @@
+"""Plans and runs to look at: one self-contained page each, which opens from disk.
+
+`plan_page` and `run_page` make pages of what they are given; `Page.save` writes one, and a notebook
+shows it. The front end is in `viewer/` of the source tree, the contract between the two sides in
+`contract.py` here and `contract.ts` there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from drystone.viewer.of_plan import Progress, plan_recording
+from drystone.viewer.of_run import run_recording
+from drystone.viewer.page import Page
+from drystone.viewer.recording import FrameForces, Recording, Series
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from drystone.planning import Plan
+    from drystone.scene import Scene
+
+__all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page"]
+
+
+def plan_page(plan: Plan, progress: Progress | None = None) -> Page:
+    """The order of removal, step by step; see `plan_recording`.
+
+    >>> import drystone as ds
+    >>> plan_page(ds.plan(ds.scenes.column(4)))
+    <Page: plan, 4 frames of 4 bodies>
+    """
+    return Page(plan_recording(plan, progress))
+
+
+def run_page(
+    scene: Scene,
+    times: ArrayLike,
+    poses: ArrayLike,
+    motionless: ArrayLike,
+    pivots: ArrayLike,
+    solve_seconds: ArrayLike,
+    forces: FrameForces | None = None,
+    *,
+    title: str = "",
+    captions: Sequence[tuple[int, str]] = (),
+    notes: Sequence[str] = (),
+    series: Sequence[Series] = (),
+) -> Page:
+    """The motion of the bodies of `scene`; the arrays are those of `run_recording`."""
+    recording = run_recording(
+        scene,
+        times,
+        poses,
+        motionless,
+        pivots,
+        solve_seconds,
+        forces,
+        title=title,
+        captions=captions,
+        notes=notes,
+        series=series,
+    )
+    return Page(recording)

@@ -1,0 +1,154 @@
+"""A plan as a recording: one frame for the whole structure and one for each block taken away."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import ceil
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drystone import _core
+from drystone.verdict import Verdict, counted, shorten
+from drystone.viewer import budget
+from drystone.viewer.contract import ABSENT, FALLING, NEXT, PRESENT
+from drystone.viewer.recording import FrameForces, Recording, Series, rows_of
+
+if TYPE_CHECKING:
+    from drystone.planning import Plan
+    from drystone.scene import Scene
+
+Progress = Callable[[int, int], None]
+"""Called with (blocks placed, blocks in all) a few times a second."""
+
+SLACK = 8
+"""Forces are computed of so many times what a page may hold before they are thinned on the way."""
+
+
+def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
+    """The order of `plan` step by step, with contact forces of every structure on the way.
+
+    Without an order it is the largest structure reached, taken apart as it was put up; an assembly
+    that does not stand as a whole is one frame. Where a structure is redundant, other forces hold
+    it up as well.
+    """
+    headline = str(plan).partition("; ")[0]
+    if plan.status == "whole_falls" and plan.whole is not None:
+        return _fallen(plan, plan.whole, headline)
+    order = plan.order if plan.found else tuple(reversed(plan.reached))
+    notes = [
+        f"{counted(plan.tests, 'stability test')} ({plan.test}), {counted(plan.pivots, 'pivot')}. "
+        "A chart's value at a step is that of all tests on structures of as many blocks; the whole "
+        "is checked apart. Where a structure is redundant, other forces hold it up as well."
+    ]
+    return Recording(
+        kind="plan",
+        title=headline,
+        bodies=plan.scene.bodies,
+        states=_states(plan, order),
+        gravity=plan.scene.gravity,
+        forces=_forces(plan.scene, order, progress),
+        series=_series(plan, len(order)),
+        captions=_captions(plan, order),
+        notes=notes,
+    )
+
+
+def _states(plan: Plan, order: Sequence[str]) -> NDArray[np.uint8]:
+    names = plan.scene.names
+    place = {name: step for step, name in enumerate(order)}
+    gone_after = [
+        len(order) if body.fixed else place.get(body.name, -1) for body in plan.scene.bodies
+    ]
+    steps = np.arange(len(order) + 1)[:, None]
+    taken = np.asarray(gone_after, dtype=np.int64)[None, :]
+    states = np.where(steps > taken, ABSENT, np.where(steps == taken, NEXT, PRESENT))
+    states[:, [body.fixed for body in plan.scene.bodies]] = PRESENT
+    for name in plan.falls_next:
+        states[0, names.index(name)] = FALLING
+    return states.astype(np.uint8)
+
+
+def _captions(plan: Plan, order: Sequence[str]) -> list[tuple[int, str]]:
+    captions = []
+    for step in range(len(order) + 1):
+        left = counted(len(order) - step, "block")
+        if step > 0:
+            text = f"{order[step - 1]} is taken away; {left} left."
+        elif plan.found:
+            text = f"The whole structure: {left}."
+        else:
+            text = f"The largest structure reached: {left}."
+        if step == 0 and plan.falls_next:
+            any_of = "any of " if len(plan.falls_next) > 1 else ""
+            text += f" With {any_of}{shorten(plan.falls_next)} something falls."
+        if step < len(order):
+            text += f" Next: {order[step]}."
+        captions.append((step, text))
+    return captions
+
+
+def _series(plan: Plan, blocks: int) -> list[Series]:
+    """Sums over the tests on structures of as many blocks as each frame has."""
+    sizes = np.array([record.size for record in plan.records], dtype=np.int64)
+
+    def total(values: Sequence[float]) -> NDArray[np.float64]:
+        weights = np.asarray(values, dtype=np.float64)
+        by_size = np.zeros(max(blocks, int(sizes.max(initial=0))) + 1)
+        np.add.at(by_size, sizes, weights)
+        if plan.found:
+            by_size[blocks] = np.nan  # the whole: not among the tests
+        by_size[0] = np.nan
+        return by_size[blocks::-1]
+
+    series = [
+        Series("pivots of the stability tests", total([r.pivots for r in plan.records])),
+        Series("time of the stability tests", total([r.seconds for r in plan.records]), "s"),
+    ]
+    if len(set(sizes.tolist())) < len(sizes):
+        series.append(Series("stability tests", total([1.0] * len(sizes))))
+    return series
+
+
+def _forces(scene: Scene, order: Sequence[str], progress: Progress | None) -> FrameForces:
+    """Of order[k:] in frame k; the bare supports are the last frame."""
+    contacts = scene.contacts
+    index = {name: body for body, name in enumerate(scene.names)}
+    expected = len(contacts) * len(order) / 2 * budget.FORCE_BYTES
+    every = max(1, ceil(expected / (SLACK * budget.FILE.forces)))
+    found = _core.forces_along(scene._core, order[::-1], every, progress)
+    frames = len(order) - found.blocks[::-1]
+    counts = np.zeros(len(order) + 1, dtype=np.int64)
+    counts[frames] = np.diff(found.offsets)[::-1]
+    kept = np.zeros(len(order) + 1, dtype=bool)
+    kept[frames] = found.stands[::-1]
+    kept[-1] = True
+    rows = rows_of(found.offsets[:-1][::-1], np.diff(found.offsets)[::-1])
+    pairs = np.array([[index[c.a], index[c.b]] for c in contacts], dtype=np.int64).reshape(-1, 2)
+    points = np.array([c.point for c in contacts], dtype=np.float64).reshape(-1, 2)
+    at = found.contact[rows]
+    offsets = np.concatenate([[0], np.cumsum(counts)])
+    return FrameForces(offsets, pairs[at], points[at], found.force[rows], kept)
+
+
+def _fallen(plan: Plan, whole: Verdict, headline: str) -> Recording:
+    """One frame: the complete assembly, and what of it falls."""
+    names = plan.scene.names
+    states = np.full((1, len(names)), PRESENT, dtype=np.uint8)
+    states[0, [names.index(name) for name in whole.falling]] = FALLING
+    vectors = np.array([force.force for force in whole.forces]).reshape(-1, 2)
+    return Recording(
+        kind="plan",
+        title=headline,
+        bodies=plan.scene.bodies,
+        states=states,
+        gravity=plan.scene.gravity,
+        forces=FrameForces(
+            [0, len(vectors)],
+            np.array([[names.index(f.a), names.index(f.b)] for f in whole.forces]).reshape(-1, 2),
+            np.array([force.point for force in whole.forces]).reshape(-1, 2),
+            vectors,
+        ),
+        captions=[(0, str(whole).partition("; ")[0] + ".")],
+    )

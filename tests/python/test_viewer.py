@@ -1,0 +1,417 @@
+"""Recordings and pages: what they hold, how large they are, what is refused."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, get_type_hints
+
+import numpy as np
+import pytest
+from matplotlib.patches import FancyArrow
+
+import drystone as ds
+from conftest import ROOT, Ran, orderless
+from drystone import _core, pictures
+from drystone.viewer import budget, contract, page
+from drystone.viewer.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT, unpacked
+from drystone.viewer.of_plan import plan_recording
+from drystone.viewer.recording import FrameForces, Recording, Series
+
+FIXTURE = ROOT / "viewer" / "test" / "plan.json"
+"""A plan as Python writes it, which the front end's tests read."""
+
+
+def _form(value: Any) -> Any:
+    """JSON without its values: keys, types, and of packed arrays the type and the axes."""
+    if isinstance(value, dict) and set(value) == {"dtype", "shape", "data"}:
+        return value["dtype"], unpacked(value).ndim
+    if isinstance(value, dict):
+        return {key: _form(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_form(part) for part in value[:1]]
+    return type(value).__name__
+
+
+def _fixture() -> str:
+    recording = ds.plan(ds.scenes.five_blocks()).view().recording
+    return json.dumps(recording.to_json(), indent=1) + "\n"
+
+
+def _embedded(text: str) -> dict[str, Any]:
+    found = re.search(r'<script id="recording" type="application/json">(.*?)</script>', text, re.S)
+    assert found is not None
+    recording: dict[str, Any] = json.loads(found[1])
+    return recording
+
+
+def _run(steps: int = 6, **changes: Any) -> ds.viewer.Page:
+    """A block that rests and one that falls beside it, with one force a frame."""
+    scene = ds.Scene()
+    scene.add_box((0, -0.5), (6, 1), name="ground", fixed=True)
+    scene.add_box((0, 0.5), (1, 1), name="still")
+    scene.add_box((2, 3), (1, 1), angle=0.3, name="falls")
+    times = np.arange(steps + 1) / 240
+    poses = np.tile([[*b.centroid, b.angle] for b in scene.bodies], (steps + 1, 1, 1))
+    poses[:, 2, 1] -= 4.905 * times**2
+    arguments: dict[str, Any] = {
+        "times": times,
+        "poses": poses,
+        "motionless": np.tile([True, True, False], (steps + 1, 1)),
+        "pivots": np.arange(steps),
+        "solve_seconds": np.full(steps, 2e-6),
+        "forces": FrameForces(
+            np.arange(steps + 2),
+            np.tile([0, 1], (steps + 1, 1)),
+            np.tile([0.5, 0.0], (steps + 1, 1)),
+            np.tile([0.0, 9.81], (steps + 1, 1)),
+        ),
+    }
+    return ds.viewer.run_page(scene, **{**arguments, **changes})
+
+
+def test_a_plan_is_a_frame_for_each_block_taken_away() -> None:
+    plan = ds.plan(ds.scenes.five_blocks())
+    recording = plan_recording(plan)
+    names = plan.scene.names
+    assert recording.states.shape == (6, len(names))
+    for step in range(6):
+        gone = {names[i] for i in np.flatnonzero(recording.states[step] == ABSENT)}
+        following = [names[i] for i in np.flatnonzero(recording.states[step] == NEXT)]
+        assert gone == set(plan.order[:step])
+        assert following == list(plan.order[step : step + 1])
+
+
+def test_the_forces_of_every_step_balance_the_weights() -> None:
+    """On each block, from points and vectors alone: what pushes it, its weight, and the moments."""
+    plan = ds.plan(ds.scenes.wall(3, 4))
+    recording = plan_recording(plan)
+    forces, bodies = recording.forces, plan.scene.bodies
+    assert forces is not None
+    offsets = np.asarray(forces.offsets)
+    pairs, points = np.asarray(forces.bodies), np.asarray(forces.points)
+    vectors = np.asarray(forces.vectors)
+    assert offsets[-1] == offsets[-2], "nothing is left in the last frame"
+    for step in range(len(plan.order)):
+        span = slice(offsets[step], offsets[step + 1])
+        for i, body in enumerate(bodies):
+            if body.fixed or body.name in plan.order[:step]:
+                assert body.fixed or not np.any(pairs[span] == i)
+                continue
+            sign = (pairs[span, 1] == i).astype(float) - (pairs[span, 0] == i)
+            arm = points[span] - np.asarray(body.centroid)
+            f = sign[:, None] * vectors[span]
+            assert f.sum(axis=0) == pytest.approx([0, 9.81 * body.mass], abs=1e-9)
+            assert np.sum(arm[:, 0] * f[:, 1] - arm[:, 1] * f[:, 0]) == pytest.approx(0, abs=1e-9)
+
+
+def test_charts_hold_every_test_once() -> None:
+    plan = ds.plan(ds.scenes.random_stack(84))
+    pivots, seconds, tests = plan_recording(plan).series
+    assert np.nansum(pivots.values) == plan.pivots
+    assert np.nansum(tests.values) == plan.tests
+    assert np.nansum(seconds.values) == pytest.approx(sum(r.seconds for r in plan.records))
+    assert np.isnan(np.asarray(pivots.values)[[0, -1]]).all(), "whole and nothing are not tested"
+
+
+def test_without_an_order_the_largest_structure_is_shown() -> None:
+    plan = ds.plan(orderless(1))
+    recording = plan_recording(plan)
+    names = plan.scene.names
+    assert len(recording.states) == len(plan.reached) + 1
+    falling = {names[i] for i in np.flatnonzero(recording.states[0] == FALLING)}
+    assert falling == set(plan.falls_next)
+    assert "With plank something falls." in recording.captions[0][1]
+
+
+def test_an_assembly_that_falls_is_one_frame() -> None:
+    plan = ds.plan(ds.scenes.diamond(5))
+    recording = plan_recording(plan)
+    assert plan.whole is not None
+    assert np.sum(recording.states == FALLING) == len(plan.whole.falling)
+    assert recording.forces is not None
+    assert len(recording.forces.vectors) == len(plan.whole.forces)
+
+
+@pytest.mark.parametrize("scene", [ds.Scene(), ds.scenes.column(2)])
+def test_nothing_to_take_apart_is_a_page(scene: ds.Scene) -> None:
+    assert _embedded(ds.plan(scene).view().html())["frames"]["count"] >= 1
+
+
+def test_what_the_front_end_is_tested_with_is_what_python_writes() -> None:
+    kept, now = (_form(json.loads(text)) for text in (FIXTURE.read_text(), _fixture()))
+    assert kept == now, f"write it anew: .venv/bin/python {Path(__file__).relative_to(ROOT)}"
+
+
+def test_both_sides_of_the_contract_name_the_same_fields() -> None:
+    text = (ROOT / "viewer" / "src" / "contract.ts").read_text()
+    pairs = {
+        "Recording": contract.RecordingJson,
+        "Body": contract.BodyJson,
+        "Frames": contract.FramesJson,
+        "Forces": contract.ForcesJson,
+        "Series": contract.SeriesJson,
+        "Packed": contract.Packed,
+    }
+    for name, side in pairs.items():
+        block = re.search(rf"export interface {name} \{{(.*?)\n\}}", text, re.S)
+        assert block is not None
+        fields = re.findall(r"^    (\w+): ", block[1], re.M)
+        assert fields == list(get_type_hints(side)), name
+    assert f'FORMAT = "{contract.FORMAT}"' in text
+    assert f"VERSION = {contract.VERSION};" in text
+    for name in ("ABSENT", "PRESENT", "MOTIONLESS", "NEXT", "FALLING"):
+        assert f"    {name.lower()}: {getattr(contract, name)}," in text
+
+
+def test_arrays_are_packed_and_come_back() -> None:
+    for kind in (np.uint8, np.uint32, np.float32, np.float64):
+        array = np.arange(12, dtype=kind).reshape(3, 4)
+        value = contract.packed(array)
+        assert np.array_equal(unpacked(value), array)
+        assert value["shape"] == [3, 4]
+    with pytest.raises(KeyError):
+        contract.packed(np.zeros(3, dtype=np.int16))
+
+
+def test_the_run_has_poses_states_and_charts() -> None:
+    frames = _embedded(_run().html())["frames"]
+    assert unpacked(frames["poses"])[0, 2] == pytest.approx([2, 3, 0.3])
+    assert unpacked(frames["states"])[3].tolist() == [MOTIONLESS, MOTIONLESS, PRESENT]
+    assert unpacked(frames["times"])[-1] == pytest.approx(6 / 240)
+    series = _embedded(_run().html())["series"]
+    assert [one["name"] for one in series] == ["pivots per step", "solve time per step"]
+    assert unpacked(series[0]["values"])[1:].tolist() == [0, 1, 2, 3, 4, 5]
+
+
+def test_outlines_are_in_the_body_s_own_frame() -> None:
+    """A box turned by 0.3 is upright in its own frame, and turned by its pose."""
+    vertices = np.array(_embedded(_run().html())["bodies"][2]["vertices"])
+    assert np.abs(vertices) == pytest.approx(np.full((4, 2), 0.5))
+
+
+def test_a_body_that_is_not_there_has_no_pose() -> None:
+    poses = np.zeros((7, 3, 3))
+    poses[4:, 2] = np.nan
+    recording = _run(poses=poses).recording
+    assert (recording.states[:, 2] == ABSENT).tolist() == [False] * 4 + [True] * 3
+
+
+def test_what_the_steps_found_motionless_is_shown_after_them() -> None:
+    still = np.zeros((6, 3), dtype=bool)
+    still[2] = True
+    states = _run(motionless=still).recording.states
+    assert np.flatnonzero((states == MOTIONLESS).all(axis=1)).tolist() == [3]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"poses": np.zeros((7, 2, 3))}, r"poses has the shape \(7, 2, 3\)"),
+        ({"motionless": np.zeros((5, 3), dtype=bool)}, r"motionless has the shape \(5, 3\)"),
+        ({"times": np.zeros(6)}, r"times has the shape \(6,\): it must be \(7,\)"),
+        ({"times": np.arange(7)[::-1]}, "times must ascend"),
+        ({"times": np.full(7, np.nan)}, "times holds a NaN"),
+        ({"poses": np.full((7, 3, 3), np.inf)}, "poses holds a NaN or an infinity"),
+        ({"pivots": np.zeros(7)}, r"pivots per step has the shape \(7,\)"),
+        ({"forces": FrameForces([0, 0], *[np.zeros((0, 2))] * 3)}, "offsets of the forces"),
+        ({"series": [Series("rows reused", np.zeros(3))]}, "rows reused has the shape"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused(changes: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        _run(**changes)
+
+
+def test_forces_that_do_not_fit_are_refused() -> None:
+    with pytest.raises(ValueError, match="ascending from 0"):
+        FrameForces([0, 2, 1], *[np.zeros((1, 2))] * 3)
+    with pytest.raises(ValueError, match="points has the shape"):
+        FrameForces([0, 1], np.zeros((1, 2)), np.zeros((2, 2)), np.zeros((1, 2)))
+
+
+def test_a_page_loads_nothing() -> None:
+    text = ds.plan(ds.scenes.column(3)).view().html()
+    assert "default-src 'none'" in text
+    assert not re.search(r"""(src|href)\s*=\s*["']|@import|url\(""", text)
+
+
+def test_names_cannot_break_out_of_the_page() -> None:
+    scene = ds.Scene()
+    scene.add_box((0, -0.5), (4, 1), name="{{recording}}", fixed=True)
+    scene.add_box((0, 0.5), (1, 1), name="</script><script>alert(1)</script>")
+    shown = ds.plan(scene).view()
+    recording = replace(shown.recording, title="<b>{{recording}}</b>")
+    text = ds.viewer.Page(recording).html()
+    assert "<script>alert" not in text
+    assert "<b>" not in text
+    assert text.count('"drystone-recording"') == 1 + _template_count('"drystone-recording"')
+    assert _embedded(text)["bodies"][1]["name"] == "</script><script>alert(1)</script>"
+
+
+def _template_count(text: str) -> int:
+    return page._template().count(text)
+
+
+def test_long_runs_are_thinned_and_say_so() -> None:
+    steps = 999
+    long = _run(steps)
+    whole = long.recording
+    a_frame = 3 * (budget.STATE_BYTES + budget.POSE_BYTES)
+    small = budget.bounded(whole, budget.Budget(frames=250 * a_frame, forces=budget.MIB))
+    assert len(small.states) == 251
+    assert small.steps is not None
+    assert small.times is not None
+    assert small.steps[[0, 1, -1]].tolist() == [0, 4, 999]
+    assert small.times[-1] == whole.times[-1]  # type: ignore[index]
+    assert small.poses is not None
+    assert np.array_equal(small.poses[1], whole.poses[4])  # type: ignore[index]
+    pivots = np.asarray(small.series[0].values)
+    assert np.nansum(pivots) == np.arange(steps).sum(), "sums of the steps between"
+    assert pivots[1] == 0 + 1 + 2 + 3
+    assert small.series[0].name == "pivots per step, sums of 4"
+    assert small.forces is not None
+    assert np.asarray(small.forces.offsets).tolist() == list(range(252))
+    assert any("Every 4th step is shown" in note for note in small.notes)
+    assert len(long.html(budget.Budget(frames=10 * a_frame))) < len(long.html())
+
+
+def test_too_many_forces_are_kept_of_every_few_frames() -> None:
+    recording = _run(99).recording
+    small = budget.bounded(recording, budget.Budget(forces=34 * budget.FORCE_BYTES))
+    forces = small.to_json()["forces"]
+    assert forces is not None
+    assert unpacked(forces["frames"]).tolist() == list(range(0, 100, 3))
+    assert unpacked(forces["vectors"]).shape == (2, 34)
+    assert any("kept of 34 of 100 frames" in note for note in small.notes)
+    none = budget.bounded(recording, budget.Budget(forces=0))
+    assert none.to_json()["forces"] is not None
+    assert any("kept of 0 of 100 frames" in note for note in none.notes)
+
+
+def test_what_fits_is_left_as_it_is() -> None:
+    recording = _run().recording
+    assert budget.bounded(recording, budget.FILE) is recording
+
+
+def test_the_largest_page_keeps_its_bound() -> None:
+    """Noise cannot be deflated: poses and forces of all frames, far beyond the budget."""
+    rng = np.random.default_rng(0)
+    limit = budget.Budget(200_000, 200_000)
+    frames, bodies, count = 3000, 40, 100_000
+    scene = ds.Scene()
+    for i in range(bodies):
+        scene.add_box((2 * i, 0), (1, 1), fixed=True)
+    recording = Recording(
+        kind="run",
+        title="noise",
+        bodies=scene.bodies,
+        states=rng.integers(0, 3, (frames, bodies)).astype(np.uint8),
+        poses=rng.random((frames, bodies, 3)),
+        times=np.arange(frames) / 240,
+        forces=FrameForces(
+            np.linspace(0, count, frames + 1).astype(int),
+            rng.integers(0, bodies, (count, 2)),
+            rng.random((count, 2)),
+            rng.random((count, 2)),
+        ),
+    )
+    base = len(ds.viewer.Page(replace(recording, forces=None)).html(budget.Budget(1, 0)))
+    size = len(ds.viewer.Page(recording).html(limit))
+    assert size - base <= 4 / 3 * (limit.frames + limit.forces) + 10_000
+
+
+def test_pages_are_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    plan = ds.plan(ds.scenes.column(3))
+    plan.draw(tmp_path / "plan.html")
+    assert (tmp_path / "plan.html").read_text().startswith("<!doctype html>")
+    with pytest.raises(ValueError, match=r"ends in \.html"):
+        plan.view().save(tmp_path / "plan.svg")
+    with pytest.raises(FileNotFoundError):
+        plan.draw(tmp_path / "no" / "plan.html")
+    assert [path.name for path in tmp_path.iterdir()] == ["plan.html"]
+
+
+def test_the_same_plan_is_the_same_page() -> None:
+    plan = ds.plan(ds.scenes.random_stack(20))
+    assert plan.view().html() == plan.view().html()
+
+
+def test_frames_are_drawn_as_pictures(tmp_path: Path) -> None:
+    shown = _run()
+    paths = shown.save_frames(tmp_path / "frames", [0, 6])
+    assert [path.name for path in paths] == ["frame-00000.png", "frame-00006.png"]
+    assert all(path.read_bytes().startswith(b"\x89PNG") for path in paths)
+    assert paths[0].read_bytes() != paths[1].read_bytes()
+    assert len(ds.plan(ds.scenes.column(3)).view().save_frames(tmp_path, suffix=".svg")) == 3
+    with pytest.raises(IndexError, match="frames 0 to 6"):
+        shown.save_frames(tmp_path, [7])
+
+
+def test_a_frame_s_picture_has_bodies_where_they_are_and_forces_to_one_scale() -> None:
+    """The force of the later frame is half as large: its arrow is half as long."""
+    vectors = np.tile([0.0, 9.81], (7, 1))
+    vectors[6] /= 2
+    recording = _run().recording
+    assert recording.forces is not None
+    halved = replace(recording, forces=replace(recording.forces, vectors=vectors))
+    figures = [pictures.frame_figure(halved, frame) for frame in (0, 6)]
+    lengths, tops = [], []
+    for figure in figures:
+        arrow = next(p for p in figure.axes[0].patches if isinstance(p, FancyArrow))
+        lengths.append(np.ptp(arrow.get_xy(), axis=0).max())
+        drawn = [path.vertices for c in figure.axes[0].collections for path in c.get_paths()]
+        tops.append(max(np.asarray(corners)[:, 1].max() for corners in drawn))
+    assert lengths[1] == pytest.approx(lengths[0] / 2)
+    assert tops[0] - tops[1] == pytest.approx(4.905 * (6 / 240) ** 2)
+    assert figures[0].axes[0].get_ylim() == figures[1].axes[0].get_ylim()
+
+
+def test_notebooks_get_a_frame_of_bounded_size() -> None:
+    shown = ds.plan(ds.scenes.pyramid(4)).view()
+    frame = shown._repr_html_()
+    assert frame.startswith("<iframe srcdoc=")
+    assert 'sandbox="allow-scripts"' in frame
+    assert frame.count("<") == 2, "the page within is escaped"
+    assert budget.INLINE.frames + budget.INLINE.forces <= 6 * budget.MIB
+
+
+def test_a_page_that_is_not_built_says_how(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(page, "files", lambda _: tmp_path)
+    page._template.cache_clear()
+    with pytest.raises(ds.DrystoneError, match="make build"):
+        ds.plan(ds.scenes.column(3)).view().html()
+    page._template.cache_clear()
+
+
+def test_the_command_line_writes_the_page(cli: Callable[..., Ran], tmp_path: Path) -> None:
+    ran = cli("plan", "column:5", "-o", tmp_path / "plan.html")
+    assert (ran.status, ran.err) == (0, "")
+    assert "page:" in ran.out
+    assert _embedded((tmp_path / "plan.html").read_text())["frames"]["count"] == 5
+    refused = cli("plan", "column:5", "-o", tmp_path / "plan.gif")
+    assert refused.status == 2
+    assert ".svg, .png or .html" in refused.err
+    assert cli("check", "column:5", "-o", tmp_path / "check.html").status == 2
+
+
+def test_progress_is_told_and_its_errors_reach_the_caller() -> None:
+    scene = ds.scenes.wall(40, 45)
+    order = [body.name for body in scene.bodies if not body.fixed]
+    told: list[tuple[int, int]] = []
+
+    def stop(placed: int, total: int) -> None:
+        told.append((placed, total))
+        raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        _core.forces_along(scene._core, order, 1, stop)
+    assert len(told) == 1
+    assert 0 < told[0][0] < told[0][1] == len(order)
+
+
+if __name__ == "__main__":
+    FIXTURE.write_text(_fixture())

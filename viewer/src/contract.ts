@@ -1,0 +1,103 @@
+/**
+ * What a page is given: a recording, as JSON. Version 1.
+ *
+ * `python/drystone/viewer/contract.py` is the same contract for the side that writes it. Units are
+ * SI: metres, kilograms, seconds, radians, newtons. A reader refuses another version; a new version
+ * is needed for every change that would make an older page show something wrong.
+ */
+
+export const FORMAT = "drystone-recording";
+export const VERSION = 1;
+
+export interface Recording {
+    format: typeof FORMAT;
+    version: typeof VERSION;
+    /** An order of removal, or a motion in time. */
+    kind: "plan" | "run";
+    title: string;
+    /** What the reader has to know, such as what was left out to bound the page's size. */
+    notes: string[];
+    /** m/s^2 */
+    gravity: [number, number];
+    /** Everything below names bodies by their index here. */
+    bodies: Body[];
+    frames: Frames;
+    forces: Forces | null;
+    /** One chart each, under the picture. */
+    series: Series[];
+}
+
+export interface Body {
+    name: string;
+    /** A fixed body bears any load and never moves. */
+    fixed: boolean;
+    /** kg */
+    mass: number;
+    /** kg/m^2 */
+    density: number;
+    /** The body's own coefficient of friction. */
+    friction: number;
+    /** Corners about the centroid, m, counter-clockwise. */
+    vertices: [number, number][];
+    /** x, y (m) of the centroid and turn (rad, counter-clockwise): where the body is without poses. */
+    pose: [number, number, number];
+}
+
+export interface Frames {
+    count: number;
+    /** u32 (count): the step each frame shows. Without it, frame k shows step k. */
+    steps: Packed | null;
+    /** f64 (count), s: when each frame is. Without it the frames are an order, not a motion. */
+    times: Packed | null;
+    /** f32 (count, bodies, 3): x, y, turn. Without it every body stays at its own pose. */
+    poses: Packed | null;
+    /** u8 (count, bodies), see `State`. */
+    states: Packed;
+    /** [frame, text]: what is said from this frame on, frames ascending. */
+    captions: [number, string][];
+}
+
+/** What a body is in a frame. */
+export const State = {
+    /** Not there: taken away, or not there yet. */
+    absent: 0,
+    /** Part of the structure; in a run, moving. */
+    present: 1,
+    /** In a run: motionless. */
+    motionless: 2,
+    /** In a plan: the block taken away in the step that follows. */
+    next: 3,
+    /** Falls, or would fall. */
+    falling: 4,
+} as const;
+export type State = (typeof State)[keyof typeof State];
+
+/** Contact forces, of those frames that have them. Columns, so that equal neighbours deflate well. */
+export interface Forces {
+    /** u32 (n), ascending: frames whose forces are here. */
+    frames: Packed;
+    /** u32 (n + 1): those of `frames[k]` are the columns offsets[k] to offsets[k + 1]. */
+    offsets: Packed;
+    /** u32 (2, m): the body that pushes, and the one that is pushed. */
+    bodies: Packed;
+    /** f32 (2, m), m: x row, y row. */
+    points: Packed;
+    /** f32 (2, m), N, on the second body: x row, y row. */
+    vectors: Packed;
+}
+
+export interface Series {
+    /** As in "pivots": "per step" or the like is part of it. */
+    name: string;
+    /** "s", or "" for a count. */
+    unit: string;
+    /** f32 (count): one value a frame, NaN for none. */
+    values: Packed;
+}
+
+/** A little-endian array in row-major order, deflated (zlib, RFC 1950), in base64. */
+export interface Packed {
+    dtype: "u8" | "u32" | "f32" | "f64";
+    shape: number[];
+    data: string;
+}

@@ -1,0 +1,67 @@
+/** What the page says in words: about a frame, and about a body in it. */
+import { State } from "./contract.ts";
+import type { Film } from "./film.ts";
+import { counted, figures } from "./format.ts";
+
+/** "Step 3 of 84", "1.25 s · step 300 of 1,200"; nothing where there is but one. */
+export function place(film: Film, frame: number): string {
+    if (film.count <= 1) return "";
+    const step = film.step(frame).toLocaleString("en");
+    const of = `${step} of ${film.step(Math.max(film.count - 1, 0)).toLocaleString("en")}`;
+    if (!film.times) return `Step ${of}`;
+    return `${film.times[frame].toFixed(3)} s · step ${of}`;
+}
+
+/** The recording's caption, or for a run how much of it is motionless. */
+export function caption(film: Film, frame: number): string {
+    const said = film.caption(frame);
+    if (said || film.kind === "plan" || film.count === 0) return said;
+    const movable = film.bodies.filter(({ fixed }) => !fixed).length;
+    return `${tally(film, frame, State.motionless)} of ${counted(movable, "block")} motionless`;
+}
+
+function tally(film: Film, frame: number, state: State): number {
+    const is = (fixed: boolean, body: number) => !fixed && film.state(frame, body) === state;
+    return film.bodies.filter(({ fixed }, body) => is(fixed, body)).length;
+}
+
+/** Rows of the card about a body. */
+export function facts(film: Film, frame: number, body: number): [string, string][] {
+    const { fixed, mass, density, friction } = film.bodies[body];
+    const rows: [string, string][] = [["state", stateOf(film, frame, body)]];
+    if (!fixed) rows.push(["mass", `${figures(mass)} kg (${figures(density)} kg/m²)`]);
+    rows.push(["friction", figures(friction)]);
+    if (film.kind === "run" && film.state(frame, body) !== State.absent) {
+        const [x, y, turn] = film.pose(frame, body);
+        rows.push(["centroid", `${figures(x)}, ${figures(y)} m`]);
+        rows.push(["turn", `${figures((turn * 180) / Math.PI, 3)}°`]);
+    }
+    const forces = film.forces(frame)?.filter(({ a, b }) => a === body || b === body) ?? [];
+    if (forces.length > 0) {
+        const largest = Math.max(...forces.map(({ fx, fy }) => Math.hypot(fx, fy)));
+        rows.push([
+            "pushed by",
+            `${counted(forces.length, "force")}, up to ${figures(largest, 3)} N`,
+        ]);
+    }
+    return rows;
+}
+
+function stateOf(film: Film, frame: number, body: number): string {
+    if (film.bodies[body].fixed) return "fixed";
+    const removed = film.kind === "plan" ? film.removedIn(body) : -1;
+    const when = removed >= 0 ? film.step(removed) : 0;
+    switch (film.state(frame, body)) {
+        case State.absent:
+            return when ? `taken away in step ${when}` : "not there";
+        case State.next:
+            return "next to be taken away";
+        case State.falling:
+            return "falls";
+        case State.motionless:
+            return "motionless";
+        default:
+            if (film.kind === "run") return "moving";
+            return when ? `stands; taken away in step ${when}` : "stands";
+    }
+}

@@ -1,0 +1,32 @@
+/** The key to the colours: only those that occur. */
+import { State } from "./contract.ts";
+import type { Film } from "./film.ts";
+
+export function drawLegend(list: HTMLElement, film: Film): void {
+    const states = new Set<number>();
+    for (let frame = 0; frame < film.count; frame++) {
+        film.bodies.forEach(({ fixed }, body) => {
+            if (!fixed) states.add(film.state(frame, body));
+        });
+    }
+    const plan = film.kind === "plan";
+    const never = film.bodies.some((_, body) => film.state(0, body) === State.absent);
+    const words: [State, string, string][] = [
+        [State.present, "present", plan ? "stands" : "moves"],
+        [State.motionless, "motionless", "motionless"],
+        [State.next, "next", "next to be taken away"],
+        [State.falling, "falling", "falls"],
+        [State.absent, "absent", never ? "not there" : "taken away"],
+    ];
+    const shown = words.filter(([state]) => states.has(state) && (plan || state !== State.absent));
+    const items = shown.map(([, kind, text]) => item(kind, text));
+    if (film.bodies.some(({ fixed }) => fixed)) items.push(item("fixed", "fixed"));
+    list.replaceChildren(...items);
+}
+
+function item(kind: string, text: string): HTMLElement {
+    const [line, swatch] = [document.createElement("li"), document.createElement("span")];
+    swatch.className = `swatch ${kind}`;
+    line.append(swatch, text);
+    return line;
+}

@@ -1,0 +1,197 @@
+/** Puts the parts together: one film, one picture, its charts and controls. */
+import { drawForces, drawKey, forceScale } from "./arrows.ts";
+import { drawBlocks } from "./blocks.ts";
+import { Camera, viewOf } from "./camera.ts";
+import { Card } from "./card.ts";
+import { Chart } from "./chart.ts";
+import { State } from "./contract.ts";
+import { Controls, element } from "./controls.ts";
+import { caption, facts, place } from "./describe.ts";
+import { Fade } from "./fade.ts";
+import type { Film } from "./film.ts";
+import { drawLegend } from "./legend.ts";
+import { type Palette, palette } from "./palette.ts";
+import { bodyAt } from "./picking.ts";
+import { bindPointer } from "./pointer.ts";
+import { Surface } from "./surface.ts";
+import { planTimes, Timeline } from "./timeline.ts";
+
+export class Viewer {
+    private readonly film: Film;
+    private readonly timeline: Timeline;
+    private readonly camera = new Camera();
+    private readonly surface = new Surface(element<HTMLCanvasElement>("scene"));
+    private readonly card = new Card(element("card"));
+    private readonly charts: Chart[];
+    private readonly controls: Controls;
+    private readonly fade: Fade;
+    private readonly metres: number;
+    private colours: Palette;
+    private showsForces: boolean;
+    private showsNames = true;
+    private stretch = 1;
+    private pointer: [number, number] | null = null;
+    /** The body whose card is kept, or -1. */
+    private selected = -1;
+    /** When the last picture was drawn, ms; NaN while nothing moves. */
+    private before = Number.NaN;
+    private requested = false;
+    private renewCharts = false;
+
+    constructor(film: Film) {
+        this.film = film;
+        this.timeline = new Timeline(film.times ?? planTimes(film.count), () => this.request());
+        this.charts = film.series.map((series) => new Chart(series, (frame) => this.goTo(frame)));
+        element("charts").append(...this.charts.map((chart) => chart.element));
+        const calm = matchMedia("(prefers-reduced-motion: reduce)");
+        this.fade = new Fade(film.bodies.length, () => calm.matches);
+        this.metres = forceScale(film);
+        this.showsForces = film.hasForces;
+        this.colours = palette(document.documentElement);
+        this.controls = new Controls(this.timeline, {
+            toggleForces: () => this.setForces(!this.showsForces),
+            toggleNames: () => this.setNames(!this.showsNames),
+            stretch: (factor) => this.change(() => (this.stretch = factor)),
+            zoom: (factor) => this.zoom(factor),
+            showAll: () => this.change(() => this.fit()),
+            select: (by) => this.select(by),
+            deselect: () => this.change(() => (this.selected = -1)),
+        });
+        drawLegend(element("legend"), film);
+        this.setForces(this.showsForces);
+        this.bind();
+        this.request();
+    }
+
+    private bind(): void {
+        bindPointer(this.surface.canvas, this.camera, {
+            hover: (at) => this.change(() => (this.pointer = at)),
+            click: (at) => this.change(() => (this.selected = this.bodyAt(at))),
+            moved: () => this.request(),
+        });
+        new ResizeObserver(() => this.request()).observe(this.surface.canvas);
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () =>
+            this.change(() => {
+                this.colours = palette(document.documentElement);
+                this.renewCharts = true;
+            }),
+        );
+    }
+
+    private change(how: () => void): void {
+        how();
+        this.request();
+    }
+
+    private request(): void {
+        if (this.requested) return;
+        this.requested = true;
+        requestAnimationFrame((now) => this.tick(now));
+    }
+
+    /** One picture; asks for the next one as long as something moves. */
+    private tick(now: number): void {
+        this.requested = false;
+        const { film, timeline } = this;
+        const seconds = Number.isNaN(this.before) ? 0 : Math.min((now - this.before) / 1000, 0.25);
+        timeline.advance(seconds);
+        const there = (body: number) => film.state(timeline.frame, body) !== State.absent;
+        const fading = this.fade.advance(seconds, there);
+        this.draw();
+        const moving = timeline.playing || fading;
+        this.before = moving ? now : Number.NaN;
+        if (moving) this.request();
+    }
+
+    private draw(): void {
+        const { film, surface, camera, colours } = this;
+        const { frame } = this.timeline;
+        if (surface.resize()) this.fit();
+        surface.canvas.classList.toggle("zoomed", camera.zoomed);
+        surface.clear(colours.page);
+        const marked = this.pointer ? this.bodyAt(this.pointer) : this.selected;
+        const scene = { context: surface.context, film, frame, camera };
+        drawBlocks(scene, this.fade, { colours, names: this.showsNames, marked });
+        if (this.showsForces) this.drawForces(frame);
+        this.showCard(frame, marked);
+        this.say(frame);
+        for (const chart of this.charts) chart.draw(frame, colours, this.renewCharts);
+        this.renewCharts = false;
+    }
+
+    private drawForces(frame: number): void {
+        const { film, surface, camera, colours } = this;
+        const metres = this.metres * this.stretch;
+        const there = (body: number) => film.state(frame, body) !== State.absent;
+        const known = film.forces(film.forcesFrame(frame)) ?? [];
+        const forces = known.filter(({ a, b }) => there(a) && there(b));
+        drawForces(surface.context, film, forces, camera, metres, colours);
+        drawKey(surface.context, surface.height, metres * camera.scale, colours);
+    }
+
+    private showCard(frame: number, body: number): void {
+        if (body < 0) {
+            this.card.hide();
+            return;
+        }
+        const [x, y] = this.film.pose(frame, body);
+        const at = this.pointer ?? [this.camera.screenX(x), this.camera.screenY(y)];
+        this.card.show(this.film.bodies[body].name, facts(this.film, frame, body), ...at);
+    }
+
+    private say(frame: number): void {
+        const { film, timeline } = this;
+        const where = place(film, frame);
+        const shown = film.forcesFrame(frame);
+        const old = this.showsForces && shown !== frame;
+        const of = shown < 0 ? "none" : `those of step ${film.step(shown)}`;
+        const what = caption(film, frame) + (old ? ` (Forces: ${of}.)` : "");
+        element("place").textContent = where;
+        const said = element("caption");
+        // Read aloud where the watcher stops, not sixty times a second.
+        said.setAttribute("aria-live", timeline.playing ? "off" : "polite");
+        if (said.textContent !== what) said.textContent = what;
+        this.controls.update([where, what].filter(Boolean).join(". "));
+    }
+
+    private fit(): void {
+        this.camera.fit(viewOf(this.film), this.surface.width, this.surface.height);
+    }
+
+    private zoom(factor: number): void {
+        this.camera.zoom(factor, this.surface.width / 2, this.surface.height / 2);
+        this.request();
+    }
+
+    private goTo(frame: number): void {
+        this.timeline.pause();
+        this.timeline.seek(frame);
+    }
+
+    private bodyAt(at: [number, number]): number {
+        return bodyAt(this.film, this.timeline.frame, ...this.camera.world(...at));
+    }
+
+    private select(by: number): void {
+        const n = this.film.bodies.length;
+        if (n === 0) return;
+        this.pointer = null;
+        this.selected = this.selected < 0 ? (by > 0 ? 0 : n - 1) : (this.selected + by + n) % n;
+        this.request();
+    }
+
+    private setForces(on: boolean): void {
+        this.showsForces = on && this.film.hasForces;
+        const button = element<HTMLButtonElement>("forces");
+        button.disabled = !this.film.hasForces;
+        button.setAttribute("aria-pressed", String(this.showsForces));
+        element("length-label").hidden = !this.showsForces;
+        this.request();
+    }
+
+    private setNames(on: boolean): void {
+        this.showsNames = on;
+        element("names").setAttribute("aria-pressed", String(on));
+        this.request();
+    }
+}
