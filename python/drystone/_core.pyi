@@ -424,6 +424,7 @@ def plan(
     time_limit: float | None = None,
     progress: Callable[[int, int, int], None] | None = None,
     shortcuts: bool = True,
+    threads: int | None = None,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).

@@ -27,7 +27,8 @@ ENDINGS = {
 """What a plan's status says when there is no order."""
 
 Progress = Callable[[int, int, int], None]
-"""Called with (tests done, blocks placed, blocks in all) a few times a second."""
+"""Called with (tests done, blocks placed, blocks in all) a few times a second. Before the first
+test the complete assembly is checked, block by block: blocks placed are that check's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +69,10 @@ class Plan:
     records: tuple[TestRecord, ...]
     """One entry a test, in order."""
     shortcuts: int
-    """Sub-assemblies known to fall without a test, by a collapse that an earlier test found."""
+    """Sub-assemblies known to fall or to lead nowhere without a test, by collapses found before."""
     whole: Verdict | None
-    """The verdict on the complete assembly, which is checked first and counted apart."""
+    """The verdict on the complete assembly, which is checked first and counted apart; None if a
+    limit or an interrupt came before there was one."""
     test: str
     """The stability test used."""
     scene: Scene = field(repr=False)
@@ -164,6 +166,7 @@ def plan(
     time_limit: float | None = None,
     progress: Progress | None = None,
     shortcuts: bool = True,
+    threads: int | None = None,
 ) -> Plan:
     """Search an order of removal in which no intermediate structure collapses.
 
@@ -182,9 +185,14 @@ def plan(
     (Ctrl-C) is a status of the plan, which then holds the best so far.
 
     A test of the core that finds a sub-assembly to fall also finds how. With `shortcuts` that
-    motion answers later tests it still applies to, and tells which blocks to take back where none
-    can be added; the order found is the same. Without, every sub-assembly visited is tested, as
-    in the paper.
+    motion answers later tests it still applies to, and tells which blocks wait for one another in
+    vain and how many to take back then; the order found is the same. Without, every sub-assembly
+    visited is tested, as in the paper.
+
+    `threads` is how many to use, by default as many as the machine has cores; the plan is the same
+    on any number. They pay where a test is long: the complete assembly is checked beside the
+    search if it has 200 blocks or more, and "lcp" tests ahead what comes next if all stands. The
+    tests that reuse depend on the one before, and run one after the other.
 
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found
@@ -193,6 +201,8 @@ def plan(
     for limit, what in ((node_limit, "node_limit"), (time_limit, "time_limit")):
         if limit is not None and not limit >= 0:
             raise ValueError(f"{what} is {limit}: it must be zero or more")
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads is {threads}: it must be one or more")
     return Plan._of(
         _core.plan(
             scene._core,
@@ -201,6 +211,7 @@ def plan(
             time_limit,
             progress,
             shortcuts,
+            threads,
         ),
         test,
         scene,

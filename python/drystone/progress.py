@@ -62,7 +62,7 @@ class PlanProgress(_Bar):
     hint = "Ctrl-C keeps the best so far"
 
     def __call__(self, tests: int, placed: int, total: int) -> None:
-        self._show(placed, total, f", {tests} tests")
+        self._show(placed, total, f", {tests} tests" if tests else ", checking the whole")
 
 
 class ForcesProgress(_Bar):

@@ -117,7 +117,7 @@ def test_scenes_are_listed(cli: Cli) -> None:
 
 
 def test_built_in_scenes_may_stand_for_files(cli: Cli) -> None:
-    assert cli("plan", "random-stack:10,seed=4,friction=0.5").status == 0
+    assert cli("plan", "random-stack:10,seed=4,friction=0.5", "--threads", "2").status == 0
     assert json.loads(cli("check", "pyramid:2", "--json").out)["stable"]
 
 
@@ -134,6 +134,8 @@ BAD = {
     "no such option": (["plan", "column:3", "--quickly"], ["--quickly"]),
     "no such command": (["plane", "column:3"], ["plane"]),
     "a limit that is no number": (["plan", "column:3", "--node-limit", "x"], ["--node-limit"]),
+    "no thread": (["plan", "column:3", "--threads", "0"], ["--threads"]),
+    "threads for a folder": (["plan", ".", "--threads", "2"], ["--threads", "--workers"]),
     "nothing to check": (["check"], ["SCENE"]),
     "a picture of another kind": (["check", "column:3", "-o", "x.gif"], [".svg", ".png"]),
     "nowhere to write": (["check", "column:3", "-o", "no/such/x.svg"], ["no/such/x.svg"]),

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import _thread
+import threading
+
 import numpy as np
 import pytest
 
@@ -116,7 +119,8 @@ def test_limits_hand_back_the_best_so_far() -> None:
     assert 0 < len(few.reached) <= 5
     assert ds.check(scene, few.reached).stable
     brief = ds.plan(scene, time_limit=0.0)
-    assert (brief.status, brief.found) == ("time_limit", False)
+    assert (brief.status, brief.found, brief.whole) == ("time_limit", False, None)
+    assert "the time was up" in str(brief)
 
 
 def test_progress_is_told() -> None:
@@ -144,6 +148,39 @@ def test_an_interrupt_is_a_status() -> None:
     assert (plan.status, plan.found) == ("interrupted", False)
 
 
+def falls_slowly() -> ds.Scene:
+    """A structure that falls, and whose check takes most of a second."""
+    return ds.scenes.diamond(20)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_the_check_of_the_whole_tells_and_can_be_stopped(threads: int) -> None:
+    calls: list[tuple[int, ...]] = []
+
+    def note(*told: int) -> None:
+        calls.append(told)
+
+    plan = ds.plan(falls_slowly(), time_limit=0.2, progress=note, threads=threads)
+    assert (plan.status, plan.whole) == ("time_limit", None)
+    assert (threads == 1) == (plan.tests == 0)  # on two, the search has begun
+    assert calls
+    assert all(0 <= placed <= total for _, placed, total in calls)
+
+    def interrupt(*told: int) -> None:
+        raise KeyboardInterrupt
+
+    plan = ds.plan(falls_slowly(), progress=interrupt, threads=threads)
+    assert (plan.status, plan.whole) == ("interrupted", None)
+
+
+def test_an_interrupt_stops_a_check() -> None:
+    timer = threading.Timer(0.2, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        ds.check(falls_slowly())
+    timer.join()
+
+
 def test_an_error_in_progress_reaches_the_caller() -> None:
     def fail(tests: int, placed: int, total: int) -> None:
         raise RuntimeError("from the callback")
@@ -157,6 +194,26 @@ def test_the_same_plan_again() -> None:
     first, again = ds.plan(scene), ds.plan(scene)
     assert first.order == again.order
     assert [r.pivots for r in first.records] == [r.pivots for r in again.records]
+
+
+@pytest.mark.parametrize("test", ["reuse", "reuse-dantzig", "lcp"])
+def test_the_same_plan_on_any_number_of_threads(test: str) -> None:
+    for scene in (ds.scenes.random_stack(60, seed=4), orderless(30), ds.scenes.column(220)):
+        plans = [ds.plan(scene, test, node_limit=150, threads=threads) for threads in (1, 2, 8)]
+        for plan in plans[1:]:
+            assert (plan.status, plan.order, plan.reached) == (
+                plans[0].status,
+                plans[0].order,
+                plans[0].reached,
+            )
+            assert [(r.size, r.pivots, r.stable) for r in plan.records] == [
+                (r.size, r.pivots, r.stable) for r in plans[0].records
+            ]
+
+
+def test_no_thread_is_an_error(block: ds.Scene) -> None:
+    with pytest.raises(ValueError, match="threads is 0: it must be one or more"):
+        ds.plan(block, threads=0)
 
 
 def test_an_unknown_test_is_an_error(block: ds.Scene) -> None:

@@ -43,7 +43,7 @@ pub struct Verdict {
 /// # Errors
 /// [`SceneError`] for overlapping blocks and unknown names.
 pub fn check(scene: &Scene, blocks: Option<&[String]>) -> Result<Verdict, SceneError> {
-    check_by(scene, blocks, Route::Equilibrium)
+    Ok(check_while(scene, blocks, Route::Equilibrium, &mut |_| true)?.expect("nobody stops it"))
 }
 
 /// How a verdict is reached. Both routes give the same one.
@@ -55,19 +55,24 @@ pub enum Route {
     Complementarity,
 }
 
-/// [`check`] by a route of choice.
+/// [`check`] by a route of choice, unless it is stopped; None then.
 ///
 /// # Errors
 /// As [`check`].
-pub fn check_by(scene: &Scene, blocks: Option<&[String]>, route: Route) -> Result<Verdict, SceneError> {
+pub fn check_while(
+    scene: &Scene,
+    blocks: Option<&[String]>,
+    route: Route,
+    go_on: &mut GoOn<'_>,
+) -> Result<Option<Verdict>, SceneError> {
     let assembly = Assembly::new(scene)?;
     let set = match blocks {
         None => BlockSet::full(assembly.blocks()),
         Some(names) => named_blocks(scene, &assembly, names)?,
     };
     Ok(match route {
-        Route::Equilibrium => check_blocks(&assembly, &set),
-        Route::Complementarity => solve_complementarity(&assembly, &set, Counts::default()),
+        Route::Equilibrium => check_blocks_while(&assembly, &set, go_on),
+        Route::Complementarity => complementarity_while(&assembly, &set, Counts::default(), go_on),
     })
 }
 
@@ -91,32 +96,59 @@ pub fn stands(scene: &Scene) -> Result<bool, SceneError> {
     Ok(equilibrium_of(&assembly, &BlockSet::full(assembly.blocks())).0 == Membership::Inside)
 }
 
-/// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports.
-fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
+/// Asked many times, with the blocks put up so far, whether to go on.
+pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
+
+/// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports. None if stopped.
+fn equilibrium_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<(Membership, ConeSolver)> {
     let mut equilibrium = assembly.equilibrium();
-    put_up(&mut equilibrium, assembly.upward().into_iter().filter(|&block| blocks.contains(block)));
-    (equilibrium.solve(), equilibrium)
+    let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
+    put_up(&mut equilibrium, upward, go_on).then(|| (equilibrium.solve(), equilibrium))
+}
+
+fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
+    equilibrium_while(assembly, blocks, &mut |_| true).expect("nobody stops it")
 }
 
 /// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
 pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
-    let (found, equilibrium) = equilibrium_of(assembly, blocks);
+    check_blocks_while(assembly, blocks, &mut |_| true).expect("nobody stops it")
+}
+
+/// [`check_blocks`], unless it is stopped; None then.
+pub fn check_blocks_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<Verdict> {
+    let (found, equilibrium) = equilibrium_while(assembly, blocks, go_on)?;
     if found == Membership::Inside {
         let (counts, residual) = (equilibrium.counts(), equilibrium.residual());
-        return verdict(assembly, blocks, |j| assembly.magnitude(&equilibrium, j), Status::Solved, counts, residual);
+        let magnitude = |j| assembly.magnitude(&equilibrium, j);
+        return Some(verdict(assembly, blocks, magnitude, Status::Solved, counts, residual));
     }
-    solve_complementarity(assembly, blocks, equilibrium.counts())
+    complementarity_while(assembly, blocks, equilibrium.counts(), go_on)
 }
 
 /// Solves the complementarity problem from scratch; `spent` is work done before.
 pub(crate) fn solve_complementarity(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
+    complementarity_while(assembly, blocks, spent, &mut |_| true).expect("nobody stops it")
+}
+
+/// [`solve_complementarity`], unless it is stopped; None then.
+fn complementarity_while(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    spent: Counts,
+    go_on: &mut GoOn<'_>,
+) -> Option<Verdict> {
     let mut solver = Solver::new(assembly.problem(), Settings::default())
         .expect("A = G' M^-1 G is symmetric with a positive diagonal");
     solver.add_rows(&assembly.rows(blocks)).expect("rows of this assembly's problem");
-    let status = solver.solve().unwrap_or(Status::NumericalTrouble);
+    let size = blocks.len();
+    let status = match solver.solve_while(&mut || go_on(size)) {
+        Ok(solved) => solved?,
+        Err(_) => Status::NumericalTrouble,
+    };
     let mut found = verdict(assembly, blocks, |j| solver.z(j), status, spent + solver.counts(), solver.residual());
     found.stable = status == Status::Solved && stands_under(assembly, blocks, |j| solver.z(j));
-    found
+    Some(found)
 }
 
 /// Reads a verdict from the magnitudes of the generators.

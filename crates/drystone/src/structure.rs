@@ -12,14 +12,25 @@ use drystone_lcp::{
     cone::{ConeSolver, Membership},
 };
 
-/// Puts blocks into a solver, which has not answered then. As long as what is there stands it is asked about every block,
-/// which takes fewer pivots than all at once; what falls in between (half an arch) would only be in the way.
-pub(crate) fn put_up(solver: &mut ConeSolver, blocks: impl IntoIterator<Item = usize>) {
-    let mut stands = true;
-    for block in blocks {
-        stands = stands && solver.decide() == Membership::Inside;
+/// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, even
+/// where what is there falls in between, as half an arch does: many blocks at once that nothing holds yet tie in nearly
+/// every pivot, and take many times more of them. Stops, with false, as soon as `go_on` says so, which is told how many
+/// are in.
+pub(crate) fn put_up(
+    solver: &mut ConeSolver,
+    blocks: impl IntoIterator<Item = usize>,
+    mut go_on: impl FnMut(usize) -> bool,
+) -> bool {
+    for (placed, block) in blocks.into_iter().enumerate() {
+        if !go_on(placed) {
+            return false;
+        }
+        if placed > 0 {
+            solver.decide();
+        }
         solver.add_rows(&Assembly::equilibrium_rows(block));
     }
+    true
 }
 
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
@@ -103,7 +114,7 @@ impl Structure {
     fn put_up(&mut self) {
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
-        put_up(&mut self.solver, new);
+        put_up(&mut self.solver, new, |_| true);
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.

@@ -5,7 +5,7 @@
 use drystone::{
     formulate::Assembly,
     scene::Scene,
-    scenes::{arch, column, pyramid, random_stack, wall},
+    scenes::{arch, column, diamond, five_blocks, inverted_triangle, pyramid, random_stack, wall},
 };
 use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 use rand::{Rng, SeedableRng};
@@ -127,6 +127,11 @@ fn scenes() -> Vec<Scene> {
         wall(5, 4, 0, 0.6).unwrap(),
         wall(5, 4, 3, 0.0).unwrap(),
         arch(9, 0.25, 0.7).unwrap(),
+        arch(15, 0.15, 0.5).unwrap(),
+        five_blocks(0.3).unwrap(),
+        diamond(3, 0.0).unwrap(),
+        diamond(3, 0.4).unwrap(),
+        inverted_triangle(3, 0.5).unwrap(),
     ];
     for seed in 0..8 {
         scenes.push(random_stack(20, seed, if seed % 2 == 0 { 0.0 } else { 0.4 }).unwrap());

@@ -178,6 +178,18 @@ fn a_random_stack_has_overhangs_and_blocks_that_need_others() {
     assert!(all.iter().any(needed));
 }
 
+/// Blocks are tried on a stack that is put up once; the same stacks come from checking every one from scratch.
+#[test]
+fn a_random_stack_is_that_of_checks_from_scratch() {
+    for (blocks, seeds) in [(1, 3), (12, 20), (40, 8), (100, 2)] {
+        for seed in 0..seeds {
+            let tried = scenes::random_stack(blocks, seed, 0.0);
+            let checked = scenes::random_stack_where(blocks, seed, 0.0, |scene| stands(scene, None));
+            assert_eq!(tried.ok(), checked.ok(), "{blocks}, {seed}");
+        }
+    }
+}
+
 #[test]
 fn a_generator_that_finds_no_place_says_so() {
     let error = scenes::random_stack_where(5, 1, 0.0, |_| false).unwrap_err();

@@ -125,6 +125,8 @@ enum Cycle {
     Ray,
     Limit,
     LostAccuracy,
+    /// The caller asked to stop before it began.
+    Stopped,
 }
 
 /// What a recomputation of `z` and `w` from the factor found.
@@ -357,49 +359,58 @@ impl Solver {
     /// # Errors
     /// [`LcpError::NotSemidefinite`] if a direction of negative curvature shows up.
     pub fn solve(&mut self) -> Result<Status, LcpError> {
-        self.answer(Self::solve_present)
+        Ok(self.solve_while(&mut || true)?.expect("nobody stops it"))
+    }
+
+    /// The same, but asks before every major cycle whether to go on. None if not; the next solve goes on from there.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_while(&mut self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
+        self.answer(|solver, limit| solver.solve_present(limit, go_on))
     }
 
     /// Keeps the accounts of one solve; `method` is given the number of pivots at which it has to stop.
-    fn answer(
+    fn answer<S: From<Status> + PartialEq>(
         &mut self,
-        method: impl FnOnce(&mut Self, usize) -> Result<Status, LcpError>,
-    ) -> Result<Status, LcpError> {
+        method: impl FnOnce(&mut Self, usize) -> Result<S, LcpError>,
+    ) -> Result<S, LcpError> {
         self.counts_at_solve = self.counts;
         self.ray = None;
         let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
         let answer = method(self, self.counts.pivots + self.settings.pivot_limit_for(present));
         // Without an answer the row driven last has both z > 0 and w < 0.
-        self.settled = answer == Ok(Status::Solved);
+        self.settled = answer.as_ref().is_ok_and(|status| *status == Status::Solved.into());
         answer
     }
 
-    fn solve_present(&mut self, limit: usize) -> Result<Status, LcpError> {
+    fn solve_present(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         let mut rounds = 0;
         let mut repairs = [Self::refactor, Self::restart].into_iter();
         loop {
             if !self.settled {
                 self.settle();
             }
-            match self.drive_all(limit)? {
+            match self.drive_all(limit, go_on)? {
                 Cycle::Feasible => match self.recompute() {
-                    Checked::Solved => return Ok(Status::Solved),
+                    Checked::Solved => return Ok(Some(Status::Solved)),
                     Checked::StillViolated if rounds < ROUNDS => {
                         rounds += 1;
                         continue;
                     }
                     Checked::StillViolated | Checked::LostAccuracy => rounds = 0,
                 },
-                Cycle::Ray => return Ok(Status::NoSolution),
+                Cycle::Ray => return Ok(Some(Status::NoSolution)),
                 Cycle::Limit => {
                     self.residual = self.present_residual();
-                    return Ok(Status::PivotLimit);
+                    return Ok(Some(Status::PivotLimit));
                 }
+                Cycle::Stopped => return Ok(None),
                 Cycle::LostAccuracy => {}
             }
             let Some(repair) = repairs.next() else {
                 self.residual = self.present_residual();
-                return Ok(Status::NumericalTrouble);
+                return Ok(Some(Status::NumericalTrouble));
             };
             self.settled = false;
             repair(self);

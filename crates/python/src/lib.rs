@@ -11,6 +11,7 @@ mod scene;
 mod simulate;
 mod structure;
 mod verdict;
+mod watch;
 
 use pyo3::prelude::*;
 

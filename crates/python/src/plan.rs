@@ -5,17 +5,18 @@ use crate::{
     errors::{plan_error, scene_error},
     scene::Scene,
     verdict::Verdict,
+    watch::Watch,
 };
 use drystone::{
     formulate::{Assembly, BlockSet},
-    plan::{self as core, Limits, Monitor, PlanError, Progress, StabilityTest, Test, TestOutcome},
+    plan::{self as core, Limits, PlanError, StabilityTest, Test, TestOutcome},
 };
 use numpy::PyArray1;
 use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyValueError},
     prelude::*,
 };
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct TestRecord {
@@ -100,40 +101,9 @@ impl StabilityTest for Callback {
     }
 }
 
-/// Looks for Ctrl-C and reports progress, a few times a second.
-struct Watch {
-    progress: Option<Py<PyAny>>,
-    last: Instant,
-    error: Option<PyErr>,
-}
-
-pub const PERIOD: Duration = Duration::from_millis(100);
-
-impl Monitor for Watch {
-    fn go_on(&mut self, progress: Progress) -> bool {
-        if self.last.elapsed() < PERIOD {
-            return true;
-        }
-        self.last = Instant::now();
-        Python::attach(|py| {
-            if py.check_signals().is_err() {
-                return false; // Ctrl-C: the best so far is the answer
-            }
-            let Some(function) = &self.progress else { return true };
-            let Progress { tests, placed, blocks } = progress;
-            let error = match function.call1(py, (tests, placed, blocks)) {
-                Ok(_) => return true,
-                Err(error) => error,
-            };
-            // Ctrl-C within the callback: the best so far is the answer, as above.
-            self.error = Some(error).filter(|error| !error.is_instance_of::<PyKeyboardInterrupt>(py));
-            false
-        })
-    }
-}
-
 #[pyfunction]
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true))]
+#[allow(clippy::too_many_arguments)] // those of the Python function
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -142,11 +112,12 @@ pub fn plan(
     time_limit: Option<f64>,
     progress: Option<Py<PyAny>>,
     shortcuts: bool,
+    threads: Option<usize>,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
-    let limits = Limits { tests: node_limit, time, shortcuts };
-    let mut watch = Watch { progress, last: Instant::now(), error: None };
+    let limits = Limits { tests: node_limit, time, shortcuts, threads };
+    let mut watch = Watch::new(progress);
     let scene = &scene.core;
     let planned = if test.is_callable() {
         let mut test = Callback { function: test.clone().unbind() };
@@ -158,7 +129,7 @@ pub fn plan(
         let test = named_test(&test.extract::<String>()?)?;
         py.detach(|| core::plan(scene, test, limits, &mut watch))
     };
-    match watch.error {
+    match watch.error() {
         Some(error) => Err(error),
         None => to_python(py, scene, &planned.map_err(plan_error)?),
     }
@@ -181,6 +152,8 @@ fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyRe
         let (TestOutcome { stands, pivots }, seconds) = (record.outcome, record.time.as_secs_f64());
         Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
     };
+    let verdict = |whole| Py::new(py, Verdict::new(py, scene, whole, plan.whole_time)?);
+    let whole = plan.whole.as_ref().map(verdict);
     Ok(Plan {
         status: plan.outcome.name().to_owned(),
         found: plan.outcome == core::Outcome::Found,
@@ -193,7 +166,7 @@ fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyRe
         seconds: plan.total.as_secs_f64(),
         records: plan.records.iter().map(record).collect::<PyResult<_>>()?,
         shortcuts: plan.shortcuts,
-        whole: Some(Py::new(py, Verdict::new(py, scene, &plan.whole, plan.whole_time)?)?),
+        whole: whole.transpose()?,
     })
 }
 

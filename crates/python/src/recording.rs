@@ -2,8 +2,9 @@
 
 use crate::{
     errors::{plan_error, scene_error},
-    plan::{Callback, PERIOD},
+    plan::Callback,
     scene::Scene,
+    watch::PERIOD,
 };
 use drystone::{
     formulate::{Assembly, BlockSet},

@@ -1,13 +1,16 @@
 //! `check` and its answer.
 
-use crate::{arrays::matrix, errors::scene_error, scene::Scene};
+use crate::{arrays::matrix, errors::scene_error, scene::Scene, watch::Watch};
 use drystone::{
     Scene as CoreScene,
-    check::{Route, check_by},
+    check::{Route, check_while},
     simulate::ContactImpulse,
 };
 use numpy::PyArray2;
-use pyo3::{exceptions::PyValueError, prelude::*};
+use pyo3::{
+    exceptions::{PyKeyboardInterrupt, PyValueError},
+    prelude::*,
+};
 use std::time::{Duration, Instant};
 
 /// The force that body `a` exerts on body `b` at one contact point, in newtons.
@@ -99,6 +102,10 @@ pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>, method:
         }
     };
     let start = Instant::now();
-    let verdict = py.detach(|| check_by(&scene.core, blocks.as_deref(), route)).map_err(|error| scene_error(&error))?;
-    Verdict::new(py, &scene.core, &verdict, start.elapsed())
+    let mut watch = Watch::new(None);
+    let checked = py.detach(|| check_while(&scene.core, blocks.as_deref(), route, &mut |_| watch.no_interrupt()));
+    match checked.map_err(|error| scene_error(&error))? {
+        Some(verdict) => Verdict::new(py, &scene.core, &verdict, start.elapsed()),
+        None => Err(watch.error().unwrap_or_else(|| PyKeyboardInterrupt::new_err(()))),
+    }
 }

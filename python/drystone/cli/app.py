@@ -102,6 +102,9 @@ def plan(
     shortcuts: Annotated[
         bool, typer.Option(help="Let a collapse answer later tests; off, as in the paper.")
     ] = True,
+    threads: Annotated[
+        int | None, typer.Option(min=1, help="Threads for one scene; one a core.")
+    ] = None,
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
@@ -130,6 +133,8 @@ def plan(
     if Path(scene).is_dir():
         from drystone.cli import plan_many
 
+        if threads is not None:
+            raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
         where = (engine or Engine.threads).value
         limits = (node_limit, time_limit)
         return plan_many.run(
@@ -139,7 +144,8 @@ def plan(
         raise InputError(f"{scene} is no folder: --engine, --workers and --address are for folders")
     from drystone.cli import plan as command
 
-    return command.run(scene, test.value, node_limit, time_limit, shortcuts, as_json, output)
+    limits = (node_limit, time_limit)
+    return command.run(scene, test.value, *limits, shortcuts, threads, as_json, output)
 
 
 @app.command()

@@ -16,6 +16,7 @@ def run(
     node_limit: int | None,
     time_limit: float | None,
     shortcuts: bool,
+    threads: int | None,
     as_json: bool,
     output: Path | None,
 ) -> int:
@@ -23,7 +24,7 @@ def run(
     picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     with PlanProgress() as progress:
-        found = plan(scene, test, node_limit, time_limit, progress, shortcuts)
+        found = plan(scene, test, node_limit, time_limit, progress, shortcuts, threads)
     if picture is not None:
         with reporting_files():
             _write(found, picture)

@@ -38,9 +38,9 @@ class Settings:
 
     def plan(self, scene: Scene, progress: Progress | None) -> Plan:
         """The plan of `scene` under these settings."""
-        return plan(
-            scene, self.test, self.node_limit, self.time_limit, progress, shortcuts=self.shortcuts
-        )
+        limits = (self.node_limit, self.time_limit)
+        # One thread: every core has a scene of its own.
+        return plan(scene, self.test, *limits, progress, shortcuts=self.shortcuts, threads=1)
 
     def to_dict(self) -> dict[str, Any]:
         """In types that JSON knows."""

@@ -71,7 +71,7 @@ def measure(announce: Callable[[str], None] = lambda what: None) -> list[Row]:
         plans = {}
         for test in COLUMNS:
             announce(f"{example.name} ({test})")
-            plans[test] = plan(scene, test, shortcuts=False)
+            plans[test] = plan(scene, test, shortcuts=False, threads=1)
         rows.append(Row(example, plans))
     return rows
 

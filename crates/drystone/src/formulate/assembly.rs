@@ -156,20 +156,22 @@ impl Assembly {
     /// what stands by straight pressure alone is then held by few forces, and the basis of its columns is far sparser.
     /// [`Self::magnitude`] gives such a force back to the edges.
     pub fn equilibrium(&self) -> ConeSolver {
-        let [gx, gy] = self.gravity;
-        let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-        let unit = |block: usize| {
-            let [per_mass, _, per_inertia] = self.inverse_mass[block];
-            let weight = gravity / per_mass;
-            [weight, weight, weight * (per_mass / per_inertia).sqrt()]
-        };
-        let units: Vec<f64> = (0..self.blocks()).flat_map(unit).collect();
+        let units: Vec<f64> = (0..self.blocks()).flat_map(|block| self.balance_unit(block)).collect();
         let columns = self.columns(self.generators.iter().chain(&self.axes));
         let axes = self.generators.len()..columns.len();
         let mut solver = ConeSolver::new(columns, &self.balance(), &units)
             .expect("a validated scene has finite masses, positions and directions");
         solver.prefer(axes);
         solver
+    }
+
+    /// In which the imbalance of a block is measured: its weight, its weight, its weight times its radius of gyration.
+    pub(crate) fn balance_unit(&self, block: usize) -> [f64; 3] {
+        let [gx, gy] = self.gravity;
+        let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+        let [per_mass, _, per_inertia] = self.inverse_mass[block];
+        let weight = gravity / per_mass;
+        [weight, weight, weight * (per_mass / per_inertia).sqrt()]
     }
 
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.

@@ -4,18 +4,32 @@
 //! nodes from the bare supports to the whole, read backwards, is a stable disassembly order. The search is
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
+mod ahead;
 mod collapse;
+mod dead_end;
 mod forces;
 mod graph;
+mod learned;
+#[cfg(test)]
+mod lemma_tests;
+mod memory;
 mod methods;
+mod nogood;
+mod outcome;
+mod planning;
 mod replay;
 mod search;
 mod stability;
+mod touching;
+mod visited;
+mod whole;
 
+pub use ahead::Ahead;
 pub use collapse::Collapse;
 pub use forces::{StructureForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
+pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
+pub use planning::{plan, plan_with};
 pub use replay::{Recorder, Replay, Step, replay};
-pub use search::{Limits, Monitor, Outcome, Plan, Progress, Quiet, TestRecord, plan, plan_with};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

@@ -46,11 +46,20 @@ pub enum PlanError {
 /// A stability test that follows the search. The search tells it where it stands: it tests a block on top of the
 /// current sub-assembly, and moves to the one just tested or back from it.
 pub trait StabilityTest {
+    /// Told before each test which sub-assemblies the search is likely to ask about: the next one, and those after it as
+    /// long as each stands. A test may answer them ahead; asking for more of them than it needs is a waste.
+    fn foresee(&mut self, _likely: &mut dyn Iterator<Item = BlockSet>) {}
+
     /// Tests the current sub-assembly with `added` put on; `blocks` holds `added` already.
     ///
     /// # Errors
     /// [`PlanError`] if no answer can be given.
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError>;
+
+    /// Whether this test finds a collapse motion of what falls.
+    fn explains(&self) -> bool {
+        false
+    }
 
     /// The collapse motion of the sub-assembly just tested, which falls, if this test finds one.
     fn collapse(&self) -> Option<Collapse> {
@@ -134,6 +143,10 @@ impl StabilityTest for FromScratch<'_> {
         solve(self.assembly, &mut self.solver, blocks)
     }
 
+    fn explains(&self) -> bool {
+        true
+    }
+
     fn collapse(&self) -> Option<Collapse> {
         Some(collapse_of(self.assembly, &self.solver, &self.tested))
     }
@@ -192,6 +205,10 @@ impl StabilityTest for Reuse {
         Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
     }
 
+    fn explains(&self) -> bool {
+        true
+    }
+
     /// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y.
     fn collapse(&self) -> Option<Collapse> {
         let mut moving: Vec<(usize, f64)> = Vec::new();
@@ -248,6 +265,10 @@ impl StabilityTest for ReuseDantzig<'_> {
         self.solver.add_rows(&self.assembly.rows_added(blocks, added)).expect("rows of this assembly's problem");
         self.tested.clone_from(blocks);
         solve(self.assembly, &mut self.solver, blocks)
+    }
+
+    fn explains(&self) -> bool {
+        true
     }
 
     fn collapse(&self) -> Option<Collapse> {

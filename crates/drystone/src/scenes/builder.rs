@@ -7,7 +7,6 @@ use crate::scene::{BodyOptions, Scene};
 const GRAVITY: [f64; 2] = [0.0, -9.81];
 
 /// A scene under construction.
-#[derive(Clone)]
 pub(super) struct Builder {
     scene: Scene,
     placed: usize,
@@ -61,10 +60,6 @@ impl Builder {
         let options = self.next_number();
         self.scene.add_polygon(vertices, options)?;
         Ok(())
-    }
-
-    pub fn scene(&self) -> &Scene {
-        &self.scene
     }
 
     pub fn finish(self) -> Scene {

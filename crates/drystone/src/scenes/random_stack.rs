@@ -1,12 +1,14 @@
 //! Random planning scenes in the manner of the paper's Fig. 7.
 
+mod standing;
+
 use super::builder::Builder;
 use super::entry::{SceneEntry, friction, integer, seed};
-use crate::check::stands;
 use crate::error::SceneError;
 use crate::scene::Scene;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
+use standing::Standing;
 
 /// Steps per metre of all lengths, so that coordinates are exact in binary and tops that look
 /// level are.
@@ -25,6 +27,9 @@ const PLACES: usize = 8;
 
 /// Blocks drawn in search of one that needs a counterweight, before any that stands will do.
 const SEARCH: usize = 8;
+
+/// Blocks drawn at a time.
+const AHEAD: usize = 16;
 
 /// Blocks drawn for one place in the stack before giving up.
 const ATTEMPTS: usize = 500;
@@ -47,7 +52,8 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
 /// not tell it: they go up level by level, whereas some overhanging block bears its load only once
 /// its counterweight lies.
 pub fn random_stack(blocks: usize, seed: u64, friction: f64) -> Result<Scene, SceneError> {
-    random_stack_where(blocks, seed, friction, |scene| stands(scene).is_ok_and(|stands| stands))
+    ENTRY.check(&[blocks as f64, seed as f64, friction])?;
+    drop_blocks(blocks, seed, friction, &mut Standing::on(ground_width(blocks)))
 }
 
 /// The same with another rule: `accept` sees the frictionless stack with the new block on it (the
@@ -56,35 +62,40 @@ pub fn random_stack_where(
     blocks: usize,
     seed: u64,
     friction: f64,
-    mut accept: impl FnMut(&Scene) -> bool,
+    accept: impl FnMut(&Scene) -> bool,
 ) -> Result<Scene, SceneError> {
     ENTRY.check(&[blocks as f64, seed as f64, friction])?;
+    drop_blocks(blocks, seed, friction, &mut Accepting { ground: ground_width(blocks), accept })
+}
+
+/// Which blocks stay where they were dropped.
+trait Rule {
+    /// The blocks that will be asked about next on the same stack.
+    fn expect(&mut self, _placed: &[Placed], _next: &[Option<Placed>]) -> Result<(), SceneError> {
+        Ok(())
+    }
+
+    /// Whether the stack stands with a block on it: the `index`th of those expected.
+    fn stands(&mut self, placed: &[Placed], block: &Placed, index: usize) -> Result<bool, SceneError>;
+
+    /// Whether the block stands on what lies lower than it. If not, it needs a counterweight that lies higher.
+    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed, index: usize) -> Result<bool, SceneError>;
+
+    /// The block stays.
+    fn keep(&mut self, _index: usize) {}
+}
+
+fn drop_blocks(blocks: usize, seed: u64, friction: f64, rule: &mut dyn Rule) -> Result<Scene, SceneError> {
     let mut random = Pcg64::seed_from_u64(seed);
     let ground = ground_width(blocks);
     let mut skyline = Skyline::level(ground);
     let mut placed: Vec<Placed> = Vec::with_capacity(blocks);
-    let mut trial = Builder::new(0.0)?;
-    lay_ground(&mut trial, ground)?;
     while placed.len() < blocks {
-        let mut found = false;
         let seek_counterweighted = random.random_range(0..2) == 0;
-        for attempt in 0..ATTEMPTS {
-            let Some(block) = draw(&mut random, &skyline, ground) else { continue };
-            let mut next = trial.clone();
-            block.add_to(&mut next)?;
-            let stands = accept(next.scene());
-            let wanted =
-                !seek_counterweighted || attempt >= SEARCH || stands && !accept(&lower_part(&placed, &block, ground)?);
-            if stands && wanted {
-                (trial, found) = (next, true);
-                skyline.raise(&block);
-                placed.push(block);
-                break;
-            }
-        }
-        if !found {
-            return Err(gave_up(placed.len(), blocks));
-        }
+        let found = find_place(&mut random, &skyline, ground, &placed, seek_counterweighted, rule)?;
+        let Some(block) = found else { return Err(gave_up(placed.len(), blocks)) };
+        skyline.raise(&block);
+        placed.push(block);
     }
     // Level by level, each from the left.
     placed.sort_by_key(|block| (block.bottom, block.left));
@@ -94,13 +105,57 @@ pub fn random_stack_where(
     Ok(builder.finish())
 }
 
-/// The block on what lies lower than it: if this falls, the block needs a counterweight that lies higher.
-fn lower_part(placed: &[Placed], block: &Placed, ground: i64) -> Result<Scene, SceneError> {
-    let height = |b: &Placed| 2 * b.bottom + b.height;
+/// Draws blocks until one stays. They are drawn some at a time, so that what they rest on is put up once for all of
+/// them; the pseudo-random sequence then goes on after the one that stays.
+fn find_place(
+    random: &mut Pcg64,
+    skyline: &Skyline,
+    ground: i64,
+    placed: &[Placed],
+    seek_counterweighted: bool,
+    rule: &mut dyn Rule,
+) -> Result<Option<Placed>, SceneError> {
+    for first in (0..ATTEMPTS).step_by(AHEAD) {
+        let draws: Vec<(Option<Placed>, Pcg64)> =
+            (first..ATTEMPTS.min(first + AHEAD)).map(|_| (draw(random, skyline, ground), random.clone())).collect();
+        rule.expect(placed, &draws.iter().map(|(block, _)| *block).collect::<Vec<_>>())?;
+        for (index, (block, after)) in draws.into_iter().enumerate() {
+            let Some(block) = block else { continue };
+            let must_lean = seek_counterweighted && first + index < SEARCH;
+            if rule.stands(placed, &block, index)? && !(must_lean && rule.stands_on_lower(placed, &block, index)?) {
+                rule.keep(index);
+                *random = after;
+                return Ok(Some(block));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// A rule from outside, which sees every stack as a scene.
+struct Accepting<F> {
+    ground: i64,
+    accept: F,
+}
+
+impl<F: FnMut(&Scene) -> bool> Rule for Accepting<F> {
+    fn stands(&mut self, placed: &[Placed], block: &Placed, _index: usize) -> Result<bool, SceneError> {
+        Ok((self.accept)(&scene_of(self.ground, placed.iter().chain([block]))?))
+    }
+
+    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed, _index: usize) -> Result<bool, SceneError> {
+        let lower = placed.iter().filter(|other| other.is_lower_than(block));
+        Ok((self.accept)(&scene_of(self.ground, lower.chain([block]))?))
+    }
+}
+
+/// Blocks on the ground, without friction.
+fn scene_of<'a>(ground: i64, blocks: impl Iterator<Item = &'a Placed>) -> Result<Scene, SceneError> {
     let mut builder = Builder::new(0.0)?;
     lay_ground(&mut builder, ground)?;
-    let lower = placed.iter().filter(|other| height(other) < height(block));
-    lower.chain([block]).try_for_each(|other| other.add_to(&mut builder))?;
+    for block in blocks {
+        block.add_to(&mut builder)?;
+    }
     Ok(builder.finish())
 }
 
@@ -114,6 +169,18 @@ struct Placed {
 }
 
 impl Placed {
+    fn is_lower_than(&self, other: &Self) -> bool {
+        2 * self.bottom + self.height < 2 * other.bottom + other.height
+    }
+
+    /// Whether they touch, or nearly.
+    fn is_near(&self, other: &Self) -> bool {
+        self.left <= other.left + other.width + 1
+            && other.left <= self.left + self.width + 1
+            && self.bottom <= other.bottom + other.height + 1
+            && other.bottom <= self.bottom + self.height + 1
+    }
+
     fn add_to(&self, builder: &mut Builder) -> Result<(), SceneError> {
         let metres = |steps: i64| steps as f64 / STEPS;
         let center = [metres(2 * self.left + self.width) / 2.0, metres(2 * self.bottom + self.height) / 2.0];

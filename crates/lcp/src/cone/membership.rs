@@ -121,7 +121,9 @@ pub struct ConeSolver {
     behind: bool,
     answers_behind: usize,
     lazy: bool,
+    /// What to take back at a mark, and whether there ever was one.
     changes: Vec<Change>,
+    marked: bool,
     /// Values overwritten since the last mark, to restore it exactly.
     overwritten: Vec<(u32, f64)>,
     last_mark: Option<Mark>,
@@ -164,6 +166,9 @@ const GROWTH: f64 = 1e6;
 /// Entries of the factor for each row that are never too many, and how many times more than after it was built last are.
 const ENTRIES: usize = 32;
 const FILL: usize = 3;
+/// Replacements for each row of the complete problem after which the factor is built again, if nobody wants to go back:
+/// each of them leaves something behind.
+const REPLACEMENTS: usize = 16;
 /// The infeasibility must fall by this share to count as progress.
 const PROGRESS: f64 = 1e-12;
 /// Pivots without progress after which entering and leaving go by least index (Bland 1977), which cannot cycle.
@@ -223,6 +228,7 @@ impl ConeSolver {
             answers_behind: 0,
             lazy: false,
             changes: Vec::new(),
+            marked: false,
             overwritten: Vec::new(),
             last_mark: None,
             residual: 0.0,
@@ -278,7 +284,7 @@ impl ConeSolver {
             }
             self.join_newest_group(row as u32);
             self.rows.push(row as u32);
-            self.changes.push(Change::Row(row as u32));
+            self.note(Change::Row(row as u32));
             for &(j, _) in self.g.columns_of(row as u32) {
                 self.missing[j as usize] -= 1;
             }

@@ -12,7 +12,6 @@
 mod basis_factor;
 mod columns;
 mod due;
-mod fill_order;
 mod membership;
 mod pricing;
 mod sparse_vector;

@@ -67,10 +67,11 @@ impl Solver {
     /// # Errors
     /// As [`Self::solve`].
     pub fn solve_by_blocks(&mut self) -> Result<Status, LcpError> {
-        self.answer(|solver, limit| {
+        let solved = self.answer(|solver, limit| {
             solver.exchange_blocks(limit);
-            solver.solve_present(limit)
-        })
+            solver.solve_present(limit, &mut || true)
+        });
+        Ok(solved?.expect("nobody stops it"))
     }
 
     /// Exchanges blocks until nothing is infeasible, or else goes back to the best of the complementary states on the way.

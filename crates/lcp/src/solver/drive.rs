@@ -7,8 +7,11 @@ use crate::{
 };
 
 impl Solver {
-    pub(super) fn drive_all(&mut self, limit: usize) -> Result<Cycle, LcpError> {
+    pub(super) fn drive_all(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Cycle, LcpError> {
         while let Some(i) = self.most_violated() {
+            if !go_on() {
+                return Ok(Cycle::Stopped);
+            }
             let cycle = self.major_cycle(i, limit)?;
             if cycle != Cycle::Feasible {
                 return Ok(cycle);

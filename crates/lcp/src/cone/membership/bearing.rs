@@ -100,7 +100,7 @@ impl ConeSolver {
                 && self.is_borne(j)
             {
                 self.bears[j as usize] = true;
-                self.changes.push(Change::Bears(j));
+                self.note(Change::Bears(j));
             }
         }
     }
@@ -140,12 +140,11 @@ impl ConeSolver {
         while let Some(first) = doubtful.pop() {
             let group = self.factor.group(first);
             for row in self.rows_of_group(first) {
-                for &(j, _) in self.g.columns_of(row) {
-                    let carried = self.carried_row(j);
-                    if self.bears[j as usize] && self.factor.group(carried) != group {
-                        self.bears[j as usize] = false;
-                        self.changes.push(Change::Doubted(j));
-                        doubtful.push(carried);
+                for e in 0..self.g.columns_of(row).len() {
+                    let (j, _) = self.g.columns_of(row)[e];
+                    if self.bears[j as usize] && self.column_group(j) != group {
+                        self.doubt(j);
+                        doubtful.push(self.carried_row(j));
                     }
                 }
             }
@@ -156,6 +155,11 @@ impl ConeSolver {
     pub(super) fn carried_row(&self, j: u32) -> u32 {
         let rows = self.g.column(j).iter().map(|&(row, _)| row);
         rows.max_by_key(|&row| self.factor.group(row)).expect("a basic column has entries")
+    }
+
+    /// The newest group that a column touches.
+    pub(super) fn column_group(&self, j: u32) -> u32 {
+        self.factor.group(self.carried_row(j))
     }
 
     /// Puts a row that comes into the newest group, which is a new one if there was an answer in between.

@@ -1,9 +1,6 @@
 //! What is kept: marks to return to, and the factor built again when its digits are worn.
 
-use super::{
-    super::fill_order::fill_reducing,
-    {Basic, Change, ConeSolver, ENTRIES, FILL, Mark, PIVOT, infeasible},
-};
+use super::{Basic, Change, ConeSolver, ENTRIES, FILL, Mark, PIVOT, REPLACEMENTS, infeasible};
 
 /// What is basic, wherever it stands: generators, and the unit columns of rows.
 #[derive(Debug, Clone, Default)]
@@ -40,6 +37,7 @@ impl ConeSolver {
             feasible: self.suspects.is_empty(),
         };
         self.overwritten.clear();
+        self.marked = true;
         self.last_mark = Some(mark);
         mark
     }
@@ -75,7 +73,7 @@ impl ConeSolver {
                     self.rows.push(row);
                 }
                 Change::Bears(j) => self.bears[j as usize] = false,
-                Change::Doubted(j) => self.bears[j as usize] = same_positions,
+                Change::Doubted(j) => self.bears[j as usize] = true,
                 Change::Row(row) => {
                     self.present[row as usize] = false;
                     for &(j, _) in self.g.columns_of(row) {
@@ -128,10 +126,25 @@ impl ConeSolver {
         }
     }
 
+    /// Notes a change, if there is a mark to go back to.
+    pub(super) fn note(&mut self, change: Change) {
+        if self.marked {
+            self.changes.push(change);
+        }
+    }
+
+    /// A column is not known to bear any more.
+    pub(super) fn doubt(&mut self, j: u32) {
+        if std::mem::take(&mut self.bears[j as usize]) {
+            self.note(Change::Doubted(j));
+        }
+    }
+
     /// Builds the factor again if a pivot showed lost digits, or if it has filled up. None if that fails.
     pub(super) fn rebuild_if_worn(&mut self) -> Option<()> {
         let full = self.factor.stored() > self.most_entries.max(ENTRIES * self.rows.len());
-        if std::mem::take(&mut self.shaky) || full {
+        let stale = !self.marked && self.factor.mark() > REPLACEMENTS * self.basic.len();
+        if std::mem::take(&mut self.shaky) || full || stale {
             if !self.rebuild(&self.basis_set()) {
                 return None;
             }
@@ -141,11 +154,13 @@ impl ConeSolver {
         Some(())
     }
 
-    /// Builds the factor again from a basis, in an order that keeps it sparse, each column in the free position where it is
-    /// largest; one that depends on those before it stays out. False if the factor refuses one.
+    /// Builds the factor again from a basis. The columns go in group by group, the oldest first, which keeps the factor
+    /// sparse: the columns of a group press on older ones. One that depends on those before it stays out. What bears has
+    /// to be found out anew. False if the factor refuses a column.
     pub(super) fn rebuild(&mut self, basis: &BasisSet) -> bool {
         self.counts.refactorisations += 1;
         self.last_mark = None;
+        self.mixed = true;
         self.factor.reset();
         self.suspects.clear();
         for p in 0..self.basic.len() as u32 {
@@ -154,7 +169,10 @@ impl ConeSolver {
                 self.put(p, Basic::Unit);
             }
         }
-        for j in fill_reducing(&self.g, &basis.columns) {
+        let mut columns = basis.columns.clone();
+        columns.sort_unstable_by_key(|&j| (self.column_group(j), j));
+        columns.iter().for_each(|&j| self.doubt(j));
+        for j in columns {
             self.column_spike(j);
             self.direction_from_spike();
             let free = |&&(p, _): &&(u32, f64)| !basis.units[p as usize] && self.basic[p as usize] == Basic::Unit;

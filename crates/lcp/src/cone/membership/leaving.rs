@@ -48,7 +48,7 @@ impl ConeSolver {
         if let Some(place) = self.rows.iter().rposition(|&other| other == row) {
             self.rows.remove(place);
         }
-        self.changes.push(Change::Gone { row, group: self.factor.group(row) });
+        self.note(Change::Gone { row, group: self.factor.group(row) });
         self.leave_group(row);
     }
 
@@ -77,7 +77,7 @@ impl ConeSolver {
         self.counts.pivots += 1;
         self.distrust(position);
         self.take_out(left);
-        self.changes.push(Change::Pivot { position, entered: Basic::Unit, left: Basic::Column(left) });
+        self.note(Change::Pivot { position, entered: Basic::Unit, left: Basic::Column(left) });
         self.put(position, Basic::Unit);
         self.x[position as usize] = 0.0;
         felt.extend(self.g.column(left).iter().map(|&(row, _)| row));

@@ -178,8 +178,8 @@ impl ConeSolver {
             self.take_out(j);
         }
         self.distrust(leaving);
-        self.mixed |= self.factor.group(self.carried_row(entering)) != self.groups;
-        self.changes.push(Change::Pivot { position: leaving, entered: Basic::Column(entering), left });
+        self.mixed |= self.column_group(entering) != self.groups;
+        self.note(Change::Pivot { position: leaving, entered: Basic::Column(entering), left });
         self.put(leaving, Basic::Column(entering));
         self.remember(leaving);
         self.set_value(leaving, step);
@@ -195,9 +195,7 @@ impl ConeSolver {
     /// A column is not basic any more.
     pub(super) fn take_out(&mut self, j: u32) {
         self.position[j as usize] = OUT;
-        if std::mem::take(&mut self.bears[j as usize]) {
-            self.changes.push(Change::Doubted(j));
-        }
+        self.doubt(j);
         self.set_force(j, 0.0);
     }
 

@@ -1,0 +1,152 @@
+//! What a search is told, and what it answers.
+
+use super::stability::TestOutcome;
+use crate::check::Verdict;
+use std::{thread, time::Duration};
+
+/// Budgets of a search, without which it goes on to the end, and how it goes about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Most stability tests.
+    pub tests: Option<usize>,
+    /// Most wall time.
+    pub time: Option<Duration>,
+    /// Answer without a test what the collapses found by earlier tests already answer (Lemmas 1 and 2 in `plan/collapse.rs`
+    /// and `plan/learned.rs`). The order found is the same; the paper's planner does without.
+    pub shortcuts: bool,
+    /// Threads to use; None for those of the machine. The plan is the same on any number.
+    pub threads: Option<usize>,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { tests: None, time: None, shortcuts: true, threads: None }
+    }
+}
+
+impl Limits {
+    /// Threads to use.
+    pub fn threads(&self) -> usize {
+        self.threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, Into::into))
+    }
+}
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Outcome {
+    /// `order` takes the whole assembly apart.
+    Found,
+    /// Every sub-assembly that can be reached was tested: no stable order exists.
+    NoOrder,
+    /// The complete assembly does not stand, so there is nothing to take apart.
+    WholeFalls,
+    /// The test budget was spent.
+    TestLimit,
+    /// The time budget was spent.
+    TimeLimit,
+    /// The monitor asked to stop.
+    Interrupted,
+}
+
+impl Outcome {
+    /// The outcome as users of other languages see it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Found => "found",
+            Self::NoOrder => "no_order",
+            Self::WholeFalls => "whole_falls",
+            Self::TestLimit => "test_limit",
+            Self::TimeLimit => "time_limit",
+            Self::Interrupted => "interrupted",
+        }
+    }
+}
+
+/// What is being done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// The complete assembly is checked, put up block by block.
+    Whole,
+    /// Sub-assemblies are tested.
+    Search,
+}
+
+/// How far a search has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// Stability tests done.
+    pub tests: usize,
+    /// Blocks of the current sub-assembly.
+    pub placed: usize,
+    /// Movable blocks in all.
+    pub blocks: usize,
+}
+
+/// Watches a search, and may stop it.
+pub trait Monitor {
+    /// Called before every test, and for every block and every major cycle of the check of the whole. False stops the
+    /// search.
+    fn go_on(&mut self, progress: Progress) -> bool;
+}
+
+/// A monitor that says nothing.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Quiet;
+
+impl Monitor for Quiet {
+    fn go_on(&mut self, _progress: Progress) -> bool {
+        true
+    }
+}
+
+/// One stability test of a search, in the order in which they were made (Fig. 6 plots them).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TestRecord {
+    /// Movable blocks in the sub-assembly.
+    pub size: usize,
+    /// What the test said and cost.
+    pub outcome: TestOutcome,
+    /// Wall time of the test.
+    pub time: Duration,
+}
+
+/// The answer of the planner. Bodies are scene indices.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// How the search ended.
+    pub outcome: Outcome,
+    /// The disassembly order, first removed first; empty unless found.
+    pub order: Vec<usize>,
+    /// The largest standing sub-assembly reached, in the order in which it was put up. If there is no order, nothing can be
+    /// added to it, and unless a search with shortcuts was long (more than 30 dead ends) none is larger.
+    pub reached: Vec<usize>,
+    /// Blocks that could be put on it next, none of which leaves it standing (empty if found or cut short).
+    pub falls_next: Vec<usize>,
+    /// Every stability test.
+    pub records: Vec<TestRecord>,
+    /// Sub-assemblies known to fall or to lead nowhere without a test, by collapses found before.
+    pub shortcuts: usize,
+    /// Time to analyse the complete assembly for the tests (counted as test time).
+    pub setup: Duration,
+    /// Time of everything, contacts included.
+    pub total: Duration,
+    /// Verdict on the complete assembly, reported apart from the tests. None if the search was stopped before there was one.
+    pub whole: Option<Verdict>,
+    /// Time of that check.
+    pub whole_time: Duration,
+}
+
+impl Plan {
+    /// Pivots of all tests.
+    pub fn pivots(&self) -> usize {
+        self.records.iter().map(|record| record.outcome.pivots).sum()
+    }
+
+    /// Time spent in tests, their set-up included.
+    pub fn test_time(&self) -> Duration {
+        self.setup + self.records.iter().map(|record| record.time).sum::<Duration>()
+    }
+}

@@ -1,0 +1,58 @@
+//! Who touches whom in the complete assembly.
+
+use crate::formulate::{Assembly, BlockSet};
+
+/// Neighbours of every movable block, and the blocks that rest against a fixed body.
+#[derive(Debug)]
+pub(super) struct Touching {
+    /// Blocks from the supports upward: the order in which they are tried.
+    upward: Vec<usize>,
+    neighbours: Vec<Vec<usize>>,
+    on_support: Vec<bool>,
+}
+
+impl Touching {
+    pub fn new(assembly: &Assembly) -> Self {
+        let blocks = assembly.blocks();
+        let mut neighbours = vec![Vec::new(); blocks];
+        let mut on_support = vec![false; blocks];
+        for generator in assembly.generators() {
+            match generator.wrenches[..] {
+                [one] => on_support[one.block] = true,
+                [a, b] => {
+                    neighbours[a.block].push(b.block);
+                    neighbours[b.block].push(a.block);
+                }
+                _ => {}
+            }
+        }
+        for list in &mut neighbours {
+            list.sort_unstable();
+            list.dedup();
+        }
+        Self { upward: assembly.upward(), neighbours, on_support }
+    }
+
+    /// Number of movable blocks.
+    pub fn blocks(&self) -> usize {
+        self.upward.len()
+    }
+
+    /// Movable blocks that touch `block`, ascending.
+    pub fn neighbours(&self, block: usize) -> &[usize] {
+        &self.neighbours[block]
+    }
+
+    /// Whether a block touches a sub-assembly or a fixed body. One that touches neither falls freely, so its test would
+    /// be a waste.
+    pub fn touches(&self, block: usize, set: &BlockSet) -> bool {
+        self.on_support[block] || self.neighbours[block].iter().any(|&other| set.contains(other))
+    }
+
+    /// The next block, from place `from` of the upward order on, that can be put on a sub-assembly; and its place.
+    pub fn candidate(&self, set: &BlockSet, from: usize) -> Option<(usize, usize)> {
+        (from..self.blocks())
+            .map(|place| (place, self.upward[place]))
+            .find(|&(_, block)| !set.contains(block) && self.touches(block, set))
+    }
+}
