@@ -75,7 +75,14 @@ class Planner(Peer):
         As for every peer, five times the cap bounds the wall time: here with the check of the whole
         assembly in it, which comes before the questions.
         """
-        plan = _core.plan(scene._core, self.test, len(workload.steps), 5 * cap, threads=1)
+        plan = _core.plan(
+            scene._core,
+            self.test,
+            len(workload.steps),
+            5 * cap,
+            shortcuts=False,
+            threads=1,
+        )
         run = Run()
         spent = 0.0
         for record in plan.records:
