@@ -279,20 +279,26 @@ impl ConeSolver {
     /// Adds rows, out of balance by `h` until the next solve. Rows already present stay as they are.
     pub fn add_rows(&mut self, rows: &[usize]) {
         for &row in rows {
-            if std::mem::replace(&mut self.present[row], true) {
+            if self.present[row] {
                 continue;
             }
             self.join_newest_group(row as u32);
-            self.rows.push(row as u32);
+            self.bring_row(row as u32);
             self.note(Change::Row(row as u32));
-            for &(j, _) in self.g.columns_of(row as u32) {
-                self.missing[j as usize] -= 1;
-            }
             self.basic[row] = Basic::Unit;
             self.x[row] = self.h[row];
             self.balance[row] = -self.h[row];
             self.new_rows.push(row as u32);
             self.suspects.push(row as u32);
+        }
+    }
+
+    /// A row is present from now on; it has joined its group.
+    fn bring_row(&mut self, row: u32) {
+        self.present[row as usize] = true;
+        self.rows.push(row);
+        for &(j, _) in self.g.columns_of(row) {
+            self.missing[j as usize] -= 1;
         }
     }
 

@@ -1,7 +1,7 @@
 //! What has been shown to bear load need not be walked through again.
 //!
-//! Rows come in groups, one for each call of [`ConeSolver::add_rows`]: the rows of a block. A basic column belongs to the
-//! newest group it touches, the block that it carries, and presses on older ones. It *bears* if however hard it is
+//! Rows that come between two answers are a group, mostly those of one block. A basic column belongs to the newest group it
+//! touches, the block that it carries, and presses on older ones. It *bears* if however hard it is
 //! pressed, the forces below only grow:
 //!
 //! ```text

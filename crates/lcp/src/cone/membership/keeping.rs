@@ -64,26 +64,15 @@ impl ConeSolver {
                     basis.put(position, left);
                 }
                 Change::Gone { row, group } => {
-                    self.present[row as usize] = true;
-                    for &(j, _) in self.g.columns_of(row) {
-                        self.missing[j as usize] -= 1;
-                    }
                     let member = self.rows.iter().copied().find(|&other| self.factor.group(other) == group);
                     self.join_group(row, group, member);
-                    self.rows.push(row);
+                    self.bring_row(row);
                 }
                 Change::Bears(j) => self.bears[j as usize] = false,
                 Change::Doubted(j) => self.bears[j as usize] = true,
                 Change::Row(row) => {
-                    self.present[row as usize] = false;
-                    for &(j, _) in self.g.columns_of(row) {
-                        self.missing[j as usize] += 1;
-                    }
-                    self.leave_group(row);
+                    self.take_row(row);
                     gone.push(row);
-                    if let Some(place) = self.rows.iter().rposition(|&other| other == row) {
-                        self.rows.remove(place);
-                    }
                 }
             }
         }
@@ -171,7 +160,7 @@ impl ConeSolver {
         }
         let mut columns = basis.columns.clone();
         columns.sort_unstable_by_key(|&j| (self.column_group(j), j));
-        columns.iter().for_each(|&j| self.doubt(j));
+        (0..self.bears.len() as u32).for_each(|j| self.doubt(j));
         for j in columns {
             self.column_spike(j);
             self.direction_from_spike();

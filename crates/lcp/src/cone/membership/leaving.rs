@@ -9,7 +9,10 @@ impl ConeSolver {
         self.catch_up();
         self.last_mark = None; // values come back by computation, not from memory
         let rows: Vec<u32> = rows.iter().map(|&row| row as u32).filter(|&row| self.present[row as usize]).collect();
-        rows.iter().for_each(|&row| self.take_row(row));
+        for &row in &rows {
+            self.note(Change::Gone { row, group: self.factor.group(row) });
+            self.take_row(row);
+        }
         // A row's own position first: its unit column always fits there if only newer blocks rest on the row.
         let own = rows.iter().copied().filter(|&row| self.column_in(row).is_some());
         let mut positions: Vec<u32> = own.collect();
@@ -40,7 +43,7 @@ impl ConeSolver {
     }
 
     /// A row is present no more.
-    fn take_row(&mut self, row: u32) {
+    pub(super) fn take_row(&mut self, row: u32) {
         self.present[row as usize] = false;
         for &(j, _) in self.g.columns_of(row) {
             self.missing[j as usize] += 1;
@@ -48,7 +51,6 @@ impl ConeSolver {
         if let Some(place) = self.rows.iter().rposition(|&other| other == row) {
             self.rows.remove(place);
         }
-        self.note(Change::Gone { row, group: self.factor.group(row) });
         self.leave_group(row);
     }
 
