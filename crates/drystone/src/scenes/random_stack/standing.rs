@@ -4,7 +4,7 @@
 //! next is tried on it and taken off again. Only contacts of new blocks are looked for.
 
 use super::{Placed, Rule, scene_of};
-use crate::{error::SceneError, formulate::Assembly};
+use crate::{error::SceneError, formulate::Assembly, structure::put_up};
 use drystone_lcp::cone::{Columns, ConeSolver, Mark, Membership};
 
 /// The equilibrium problem of the blocks kept so far, and of those that may come next.
@@ -80,10 +80,8 @@ impl Standing {
         let bare = columns.and_then(|columns| ConeSolver::new(columns, &balance, &units));
         let bare = bare.expect("blocks of finite size");
         let mut solver = bare.clone();
-        for block in 0..self.kept.len() {
-            solver.add_rows(&Assembly::equilibrium_rows(block));
-            solver.solve();
-        }
+        put_up(&mut solver, 0..self.kept.len(), |_| true);
+        solver.solve();
         let mut own = self.kept.len()..;
         let rows = self.next.iter().map(|piece| match piece {
             Some(_) => Assembly::equilibrium_rows(own.next().unwrap_or_default()),
@@ -115,10 +113,8 @@ impl Rule for Standing {
     fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed, index: usize) -> Result<bool, SceneError> {
         let Some(trial) = self.trial.as_ref().filter(|_| self.next[index].is_some()) else { return Ok(false) };
         let mut solver = trial.bare.clone();
-        for lower in (0..placed.len()).filter(|&k| placed[k].is_lower_than(block)) {
-            solver.add_rows(&Assembly::equilibrium_rows(lower));
-            solver.solve();
-        }
+        put_up(&mut solver, (0..placed.len()).filter(|&k| placed[k].is_lower_than(block)), |_| true);
+        solver.decide();
         solver.add_rows(&trial.rows[index]);
         Ok(solver.solve() == Membership::Inside)
     }
