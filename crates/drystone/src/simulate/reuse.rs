@@ -58,17 +58,32 @@ pub(super) trait Route: std::fmt::Debug + Send + Sync {
     /// Solves it for this q.
     fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError>;
 
+    /// The solver that it works with.
+    fn held(&self) -> &Held;
+
+    /// The same, to change it.
+    fn held_mut(&mut self) -> &mut Held;
+
     /// The solver with the solution, after a solve.
-    fn solver(&self) -> &Solver;
+    fn solver(&self) -> &Solver {
+        self.held().solver.as_ref().expect(SOLVED)
+    }
 
     /// All work so far.
-    fn counts(&self) -> Counts;
+    fn counts(&self) -> Counts {
+        self.held().counts()
+    }
 
     /// Forgets what it took over.
-    fn forget(&mut self);
+    fn forget(&mut self) {
+        self.held_mut().forget();
+    }
 
     /// Forgets what it took over, and is content with the solver's own tolerances until it forgets again.
-    fn restart(&mut self);
+    fn restart(&mut self) {
+        self.forget();
+        self.held_mut().relaxed = true;
+    }
 
     /// What it keeps, to be written down after a step.
     fn kept(&self) -> Kept;
@@ -102,30 +117,24 @@ fn all_rows(n: usize) -> Vec<usize> {
     (0..n).collect()
 }
 
+/// A route's solver, the work of those it had before, and whether it is content with the solver's own tolerances.
 #[derive(Debug, Default)]
-struct FromScratch {
+pub(super) struct Held {
     solver: Option<Solver>,
     spent: Counts,
     relaxed: bool,
 }
 
-impl Route for FromScratch {
-    fn begin(&mut self, _: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
+impl Held {
+    /// A new solver for this problem; no row is present.
+    fn take(&mut self, matrix: Problem) -> Result<&mut Solver, LcpError> {
+        let solver = Solver::new(matrix, settings(self.relaxed))?;
         self.spent = self.counts();
-        self.solver = Some(Solver::new(matrix, settings(self.relaxed))?);
-        Ok(0)
+        Ok(self.solver.insert(solver))
     }
 
-    fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
-        let solver = self.solver.as_mut().expect(SOLVED);
-        solver.clear();
-        solver.set_q(q)?;
-        solver.add_rows(&all_rows(q.len()))?;
-        solver.solve()
-    }
-
-    fn solver(&self) -> &Solver {
-        self.solver.as_ref().expect(SOLVED)
+    fn solver_mut(&mut self) -> &mut Solver {
+        self.solver.as_mut().expect(SOLVED)
     }
 
     fn counts(&self) -> Counts {
@@ -136,19 +145,42 @@ impl Route for FromScratch {
         self.spent = self.counts();
         (self.solver, self.relaxed) = (None, false);
     }
+}
 
-    fn restart(&mut self) {
-        self.forget();
-        self.relaxed = true;
+#[derive(Debug, Default)]
+struct FromScratch {
+    held: Held,
+}
+
+impl Route for FromScratch {
+    fn held(&self) -> &Held {
+        &self.held
+    }
+
+    fn held_mut(&mut self) -> &mut Held {
+        &mut self.held
+    }
+
+    fn begin(&mut self, _: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
+        self.held.take(matrix)?;
+        Ok(0)
+    }
+
+    fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
+        let solver = self.held.solver_mut();
+        solver.clear();
+        solver.set_q(q)?;
+        solver.add_rows(&all_rows(q.len()))?;
+        solver.solve()
     }
 
     fn kept(&self) -> Kept {
-        Kept { motionless: None, last: None, relaxed: self.relaxed }
+        Kept { motionless: None, last: None, relaxed: self.held.relaxed }
     }
 
     fn take_up(&mut self, kept: &Kept, _: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError> {
         self.forget();
-        self.relaxed = kept.relaxed;
+        self.held.relaxed = kept.relaxed;
         Ok(())
     }
 }
@@ -187,10 +219,10 @@ impl FromMotionless {
         if self.part.as_ref().is_some_and(known) {
             return Ok(());
         }
-        let mut solver = Solver::new(problem.principal(&self.rows), settings(self.full.relaxed))?;
+        let mut solver = Solver::new(problem.principal(&self.rows), settings(self.full.held.relaxed))?;
         solver.add_rows(&all_rows(self.rows.len()))?;
         let status = solver.solve()?;
-        self.full.spent = self.full.spent + solver.counts();
+        self.full.held.spent = self.full.held.spent + solver.counts();
         let z = (0..self.rows.len()).map(|row| solver.z(row)).collect();
         self.part = (status == Status::Solved).then_some(Part { approaches, q, z });
         Ok(())
@@ -198,6 +230,14 @@ impl FromMotionless {
 }
 
 impl Route for FromMotionless {
+    fn held(&self) -> &Held {
+        &self.full.held
+    }
+
+    fn held_mut(&mut self) -> &mut Held {
+        &mut self.full.held
+    }
+
     fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
         self.solve_part(situation, &matrix)?;
         self.full.begin(situation, matrix)
@@ -205,7 +245,7 @@ impl Route for FromMotionless {
 
     fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
         let Some(part) = &self.part else { return self.full.solve(q) };
-        let solver = self.full.solver.as_mut().expect(SOLVED);
+        let solver = self.full.held.solver_mut();
         solver.clear();
         solver.set_q(q)?;
         let start = Start { indices: self.rows.clone(), z: part.z.clone() };
@@ -220,59 +260,49 @@ impl Route for FromMotionless {
         }
     }
 
-    fn solver(&self) -> &Solver {
-        self.full.solver()
-    }
-
-    fn counts(&self) -> Counts {
-        self.full.counts()
-    }
-
     fn forget(&mut self) {
         self.full.forget();
         self.part = None;
     }
 
-    fn restart(&mut self) {
-        self.forget();
-        self.full.restart();
-    }
-
     fn kept(&self) -> Kept {
-        Kept { motionless: self.part.clone(), last: None, relaxed: self.full.relaxed }
+        Kept { motionless: self.part.clone(), last: None, relaxed: self.full.held.relaxed }
     }
 
     fn take_up(&mut self, kept: &Kept, _: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError> {
         self.forget();
         self.part.clone_from(&kept.motionless);
-        self.full.relaxed = kept.relaxed;
+        self.full.held.relaxed = kept.relaxed;
         Ok(())
     }
 }
 
 #[derive(Debug, Default)]
 struct FromLast {
-    solver: Option<Solver>,
-    spent: Counts,
-    relaxed: bool,
+    held: Held,
 }
 
 impl Route for FromLast {
+    fn held(&self) -> &Held {
+        &self.held
+    }
+
+    fn held_mut(&mut self) -> &mut Held {
+        &mut self.held
+    }
+
     fn has_matrix(&self, situation: &Situation<'_>) -> bool {
         let same = |before: &VelocityLevel| {
             let pairs = before.approaches().iter().zip(situation.problem.approaches());
             before.len() == situation.problem.len() && pairs.into_iter().all(|(old, new)| old.same_geometry(new))
         };
-        self.solver.is_some() && situation.before.is_some_and(same)
+        self.held.solver.is_some() && situation.before.is_some_and(same)
     }
 
     fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
         let rows = all_rows(matrix.len());
-        let (Some(before), Some(solver)) = (situation.before, self.solver.as_mut()) else {
-            self.spent = self.counts();
-            let mut solver = Solver::new(matrix, settings(self.relaxed))?;
-            solver.add_rows(&rows)?;
-            self.solver = Some(solver);
+        let (Some(before), Some(solver)) = (situation.before, self.held.solver.as_mut()) else {
+            self.held.take(matrix)?.add_rows(&rows)?;
             return Ok(0);
         };
         let kept = solver.follow(matrix, &situation.problem.origins(before))?;
@@ -281,41 +311,23 @@ impl Route for FromLast {
     }
 
     fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
-        let solver = self.solver.as_mut().expect(SOLVED);
+        let solver = self.held.solver_mut();
         if solver.problem().q() != q {
             solver.set_q(q)?;
         }
         solver.solve()
     }
 
-    fn solver(&self) -> &Solver {
-        self.solver.as_ref().expect(SOLVED)
-    }
-
-    fn counts(&self) -> Counts {
-        self.spent + self.solver.as_ref().map(Solver::counts).unwrap_or_default()
-    }
-
-    fn forget(&mut self) {
-        self.spent = self.counts();
-        (self.solver, self.relaxed) = (None, false);
-    }
-
-    fn restart(&mut self) {
-        self.forget();
-        self.relaxed = true;
-    }
-
     fn kept(&self) -> Kept {
-        let last = self.solver.as_ref().map(|solver| (solver.problem().q().to_vec(), solver.state()));
-        Kept { motionless: None, last, relaxed: self.relaxed }
+        let last = self.held.solver.as_ref().map(|solver| (solver.problem().q().to_vec(), solver.state()));
+        Kept { motionless: None, last, relaxed: self.held.relaxed }
     }
 
     fn take_up(&mut self, kept: &Kept, matrix: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError> {
         self.forget();
-        self.relaxed = kept.relaxed;
+        self.held.relaxed = kept.relaxed;
         if let Some((q, state)) = &kept.last {
-            self.solver = Some(Solver::from_state(matrix(q.clone())?, settings(self.relaxed), state)?);
+            self.held.solver = Some(Solver::from_state(matrix(q.clone())?, settings(self.held.relaxed), state)?);
         }
         Ok(())
     }
