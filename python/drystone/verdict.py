@@ -33,6 +33,19 @@ class ContactForce:
     force: tuple[float, float]
     """(x, y) in N."""
 
+    @classmethod
+    def _of(cls, core: _core.ContactForce) -> ContactForce:
+        return cls(
+            core.a,
+            core.b,
+            core.feature,
+            core.point,
+            core.normal,
+            core.normal_force,
+            core.tangential_force,
+            core.force,
+        )
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Verdict:
@@ -69,23 +82,10 @@ class Verdict:
 
     @classmethod
     def _of(cls, core: _core.Verdict, scene: Scene) -> Verdict:
-        forces = tuple(
-            ContactForce(
-                f.a,
-                f.b,
-                f.feature,
-                f.point,
-                f.normal,
-                f.normal_force,
-                f.tangential_force,
-                f.force,
-            )
-            for f in core.forces
-        )
         return cls(
             core.stable,
             core.status,
-            forces,
+            tuple(ContactForce._of(force) for force in core.forces),
             tuple(core.names),
             core.accelerations,
             tuple(core.falling),

@@ -118,19 +118,7 @@ class World:
     @property
     def forces(self) -> tuple[ContactForce, ...]:
         """Mean force of the last step at every contact point that bears."""
-        return tuple(
-            ContactForce(
-                f.a,
-                f.b,
-                f.feature,
-                f.point,
-                f.normal,
-                f.normal_force,
-                f.tangential_force,
-                f.force,
-            )
-            for f in self._core.forces()
-        )
+        return tuple(ContactForce._of(force) for force in self._core.forces())
 
     def set_velocity(self, name: str, velocity: Sequence[float]) -> None:
         """Set a body's velocity: (m/s, m/s, rad/s)."""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from drystone import _core, scenes, statics
+from drystone.paper.plain import plain_table
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -131,19 +132,10 @@ def _least(
 
 def methods_table(found: Sequence[Measurement]) -> Table:
     """Without and with reuse side by side, a section for each structure."""
-    from rich import box
-    from rich.table import Table
-
-    table = Table(
-        title="Stability tests of one search by other methods, without and with reuse",
-        title_justify="left",
-        title_style="bold",
-        caption="failures: tests not solved, or with a verdict unlike that of the linear program",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
-        pad_edge=False,
-        show_edge=False,
+    title = "Stability tests of one search by other methods, without and with reuse"
+    table = plain_table(title, padding=(0, 1, 0, 0))
+    table.caption = (
+        "failures: tests not solved, or with a verdict unlike that of the linear program"
     )
     table.add_column("method", overflow="fold")
     for heading in ("pivots", "reuse", "fewer", "ms", "reuse", "faster", "fail"):

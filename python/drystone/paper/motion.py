@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drystone import scenes
+from drystone.paper.plain import plain_table
 from drystone.simulation import REUSE, Run, simulate
 
 if TYPE_CHECKING:
@@ -148,19 +149,7 @@ def motion_tables(measured: list[Measured]) -> list[Table]:
 
 
 def _table(title: str) -> Table:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(
-        title=title,
-        title_justify="left",
-        title_style="bold",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-        padding=(0, 0, 0, 1),
-        pad_edge=False,
-        show_edge=False,
-    )
+    table = plain_table(title)
     for heading in ("figure", "segment"):
         table.add_column(heading, no_wrap=True)
     for heading in ("steps", *MODES, "full saves"):

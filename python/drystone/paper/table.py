@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone import scenes
+from drystone.paper.plain import plain_table
 from drystone.planning import Plan, plan
 
 if TYPE_CHECKING:
@@ -99,19 +100,7 @@ def as_tables(rows: list[Row]) -> list[Table]:
 
 
 def _table(title: str) -> Table:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(
-        title=title,
-        title_justify="left",
-        title_style="bold",
-        caption_justify="left",
-        box=box.SIMPLE_HEAD,
-        padding=(0, 0, 0, 1),  # the whole fits into 80 columns
-        pad_edge=False,
-        show_edge=False,
-    )
+    table = plain_table(title)
     table.add_column("structure", no_wrap=True)
     for heading in ("tests", *COLUMNS, "lcp / reuse"):
         # A heading of two words goes on two lines.
