@@ -3,8 +3,8 @@
 use crate::{
     contact::Contact,
     error::SceneError,
-    formulate::{Assembly, BlockSet, ContactForce},
-    scene::Scene,
+    formulate::{Acceleration, Assemble, Assembly, BlockSet, Components, ContactForce, length},
+    scene::SceneOf,
     structure::put_up,
 };
 use drystone_lcp::{
@@ -26,8 +26,8 @@ pub struct Verdict {
     pub stable: bool,
     /// Indices of the movable bodies that were checked, ascending.
     pub checked: Vec<usize>,
-    /// Acceleration of each of them: m/s^2, m/s^2, rad/s^2.
-    pub accelerations: Vec<[f64; 3]>,
+    /// Acceleration of each of them.
+    pub accelerations: Vec<Acceleration>,
     /// Those that do not stay at rest.
     pub falling: Vec<usize>,
     /// Force at every contact point between checked or fixed bodies.
@@ -42,8 +42,9 @@ pub struct Verdict {
 ///
 /// # Errors
 /// [`SceneError`] for overlapping blocks and unknown names.
-pub fn check(scene: &Scene, blocks: Option<&[String]>) -> Result<Verdict, SceneError> {
-    Ok(check_while(scene, blocks, Route::Equilibrium, &mut |_| true)?.expect("nobody stops it"))
+pub fn check<S: Assemble>(scene: &SceneOf<S>, blocks: Option<&[String]>) -> Result<Verdict, SceneError> {
+    let assembly = Assembly::new(scene)?;
+    Ok(check_while(&assembly, blocks, Route::Equilibrium, &mut |_| true)?.expect("nobody stops it"))
 }
 
 /// How a verdict is reached. Both routes give the same one.
@@ -58,40 +59,32 @@ pub enum Route {
 /// [`check`] by a route of choice, unless it is stopped; None then.
 ///
 /// # Errors
-/// As [`check`].
+/// [`SceneError::UnknownName`].
 pub fn check_while(
-    scene: &Scene,
+    assembly: &Assembly,
     blocks: Option<&[String]>,
     route: Route,
     go_on: &mut GoOn<'_>,
 ) -> Result<Option<Verdict>, SceneError> {
-    let assembly = Assembly::new(scene)?;
     let set = match blocks {
         None => BlockSet::full(assembly.blocks()),
-        Some(names) => named_blocks(scene, &assembly, names)?,
+        Some(names) => {
+            let mut set = BlockSet::empty(assembly.blocks());
+            assembly.named(names)?.into_iter().for_each(|block| set.insert(block));
+            set
+        }
     };
     Ok(match route {
-        Route::Equilibrium => check_blocks_while(&assembly, &set, go_on),
-        Route::Complementarity => complementarity_while(&assembly, &set, Counts::default(), go_on),
+        Route::Equilibrium => check_blocks_while(assembly, &set, go_on),
+        Route::Complementarity => complementarity_while(assembly, &set, Counts::default(), go_on),
     })
-}
-
-fn named_blocks(scene: &Scene, assembly: &Assembly, names: &[String]) -> Result<BlockSet, SceneError> {
-    let mut set = BlockSet::empty(assembly.blocks());
-    let bodies = names.iter().map(|name| scene.index_of(name)).collect::<Result<Vec<_>, _>>()?;
-    for block in 0..assembly.blocks() {
-        if bodies.contains(&assembly.body_index(block)) {
-            set.insert(block);
-        }
-    }
-    Ok(set)
 }
 
 /// Whether a scene stands, and nothing else.
 ///
 /// # Errors
 /// [`SceneError::Overlap`] if blocks overlap.
-pub fn stands(scene: &Scene) -> Result<bool, SceneError> {
+pub fn stands<S: Assemble>(scene: &SceneOf<S>) -> Result<bool, SceneError> {
     let assembly = Assembly::new(scene)?;
     Ok(equilibrium_of(&assembly, &BlockSet::full(assembly.blocks())).0 == Membership::Inside)
 }
@@ -103,7 +96,7 @@ pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
 fn equilibrium_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<(Membership, ConeSolver)> {
     let mut equilibrium = assembly.equilibrium();
     let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
-    put_up(&mut equilibrium, upward, go_on).then(|| (equilibrium.solve(), equilibrium))
+    put_up(&mut equilibrium, &assembly.equilibrium_rows(), upward, go_on).then(|| (equilibrium.solve(), equilibrium))
 }
 
 fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
@@ -161,12 +154,8 @@ pub(crate) fn verdict(
     residual: f64,
 ) -> Verdict {
     let accelerations = assembly.accelerations(blocks, &f);
-    let falling: Vec<usize> = blocks
-        .iter()
-        .zip(&accelerations)
-        .filter(|&(block, acceleration)| !at_rest(assembly, block, acceleration))
-        .map(|(block, _)| assembly.body_index(block))
-        .collect();
+    let falling: Vec<usize> =
+        moving_blocks(assembly, blocks, &f).map(|(block, _)| assembly.body_index(block)).collect();
     Verdict {
         status,
         stable: status == Status::Solved && falling.is_empty(),
@@ -200,19 +189,18 @@ pub(crate) fn moving_blocks<'a>(
     assembly: &'a Assembly,
     blocks: &'a BlockSet,
     f: impl Fn(usize) -> f64 + 'a,
-) -> impl Iterator<Item = (usize, [f64; 3])> + 'a {
+) -> impl Iterator<Item = (usize, Components)> + 'a {
     let accelerated = blocks.iter().map(move |block| (block, assembly.acceleration(block, &f)));
     accelerated.filter(move |(block, acceleration)| !at_rest(assembly, *block, acceleration))
 }
 
-fn at_rest(assembly: &Assembly, block: usize, acceleration: &[f64; 3]) -> bool {
+fn at_rest(assembly: &Assembly, block: usize, acceleration: &Components) -> bool {
     severity(assembly, block, acceleration) <= AT_REST
 }
 
 /// Largest acceleration of a point of a block, as a share of gravity (of 1 m/s^2 without gravity).
-fn severity(assembly: &Assembly, block: usize, acceleration: &[f64; 3]) -> f64 {
-    let [gx, gy] = assembly.gravity();
-    let [ax, ay, alpha] = *acceleration;
-    let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-    ax.hypot(ay).max(alpha.abs() * assembly.body(block).polygon.radius()) / gravity
+fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
+    let [x, y, z, turning @ ..] = *acceleration;
+    let gravity = Some(length(assembly.gravity())).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+    length([x, y, z]).max(length(turning) * assembly.body(block).radius) / gravity
 }

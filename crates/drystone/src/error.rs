@@ -39,6 +39,12 @@ pub enum SceneError {
         /// What is wrong with the polygon, and the fix.
         fault: ShapeFault,
     },
+    /// A friction cone with less than three edges.
+    #[error("facets is {facets}: a friction cone in space has at least 3")]
+    TooFewFacets {
+        /// What was asked for.
+        facets: usize,
+    },
     /// Two blocks with the same name.
     #[error("the name \"{name}\" is already that of block number {index}: names must differ")]
     DuplicateName {

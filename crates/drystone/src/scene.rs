@@ -1,7 +1,7 @@
 //! A scene: gravity, friction and rigid blocks, each checked when it is added.
 
 use crate::error::SceneError;
-use crate::geometry::{Polygon, Pose};
+use crate::geometry::{Polygon, Pose, Shape};
 use crate::suggest::nearest;
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use std::collections::HashMap;
 pub struct BodyOptions {
     /// The block's name; without one it is "b" and its index.
     pub name: Option<String>,
-    /// Mass per area, kg/m^2.
+    /// Mass per area, kg/m^2; in space per volume, kg/m^3.
     pub density: f64,
     /// The block's own coefficient of friction; without one the scene's counts.
     pub friction: Option<f64>,
@@ -24,18 +24,18 @@ impl Default for BodyOptions {
     }
 }
 
-/// One rigid convex block.
+/// One rigid block.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Body {
+pub struct Body<S: Shape = Polygon> {
     /// Unique in the scene.
     pub name: String,
-    /// Outline in the body's frame: the centroid is the origin.
-    pub polygon: Polygon,
-    /// Width and height, if the block was given as a box.
-    pub box_size: Option<[f64; 2]>,
+    /// In the body's frame: the centroid is the origin.
+    pub shape: S,
+    /// The sides, if the block was given as a box.
+    pub box_size: Option<S::Vector>,
     /// Where the frame stands: `position` is the centroid's place in the world.
-    pub pose: Pose,
-    /// Mass per area, kg/m^2.
+    pub pose: S::Pose,
+    /// Mass per area, kg/m^2; in space per volume, kg/m^3.
     pub density: f64,
     /// The block's own coefficient of friction, if it has one.
     pub friction: Option<f64>,
@@ -43,40 +43,47 @@ pub struct Body {
     pub fixed: bool,
 }
 
-impl Body {
+impl<S: Shape> Body<S> {
     /// Mass in kilograms (also of a fixed block, which never uses it).
     pub fn mass(&self) -> f64 {
-        self.density * self.polygon.area()
+        self.density * self.shape.measure()
     }
+}
 
+impl Body {
     /// Moment of inertia about the centroid, kg m^2.
     pub fn inertia(&self) -> f64 {
-        self.density * self.polygon.second_moment()
+        self.density * self.shape.second_moment()
     }
 
     /// The corners in the world, metres, counter-clockwise.
     pub fn vertices(&self) -> Vec<[f64; 2]> {
-        let corners = self.polygon.vertices().iter();
+        let corners = self.shape.vertices().iter();
         corners.map(|&v| self.pose.transform(v).to_array()).collect()
     }
 }
 
-/// Blocks under gravity. Lengths are metres, masses kilograms, angles radians.
+/// Blocks under gravity in the plane.
+pub type Scene = SceneOf<Polygon>;
+
+/// Blocks under gravity, in the plane ([`Polygon`]) or in space ([`Solid`](crate::geometry::Solid)). Lengths are metres,
+/// masses kilograms, angles radians.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Scene {
-    gravity: [f64; 2],
+pub struct SceneOf<S: Shape> {
+    gravity: S::Vector,
     friction: f64,
     contact_tolerance: Option<f64>,
-    bodies: Vec<Body>,
+    bodies: Vec<Body<S>>,
     index: HashMap<String, usize>,
 }
 
-impl Scene {
+impl<S: Shape> SceneOf<S> {
     /// An empty scene. `gravity` in m/s^2; `friction` is the coefficient of every block without
     /// one of its own.
-    pub fn new(gravity: [f64; 2], friction: f64) -> Result<Self, SceneError> {
-        finite("the scene's gravity[0]", gravity[0])?;
-        finite("the scene's gravity[1]", gravity[1])?;
+    pub fn new(gravity: S::Vector, friction: f64) -> Result<Self, SceneError> {
+        for (axis, &value) in gravity.as_ref().iter().enumerate() {
+            finite(&format!("the scene's gravity[{axis}]"), value)?;
+        }
         check_friction("the scene's friction", friction)?;
         Ok(Self { gravity, friction, contact_tolerance: None, bodies: Vec::new(), index: HashMap::new() })
     }
@@ -89,6 +96,99 @@ impl Scene {
         Ok(self)
     }
 
+    /// Moves a block.
+    pub(crate) fn set_pose(&mut self, index: usize, pose: S::Pose) {
+        self.bodies[index].pose = pose;
+    }
+
+    /// Takes a block out; those after it move up by one.
+    pub(crate) fn remove(&mut self, index: usize) {
+        self.bodies.remove(index);
+        self.index = self.bodies.iter().enumerate().map(|(k, body)| (body.name.clone(), k)).collect();
+    }
+
+    /// Adds a block whose place and shape are checked.
+    pub(crate) fn push(
+        &mut self,
+        name: String,
+        shape: S,
+        box_size: Option<S::Vector>,
+        pose: S::Pose,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let BodyOptions { density, friction, fixed, .. } = options;
+        positive(&format!("block \"{name}\": density"), density)?;
+        if let Some(friction) = friction {
+            check_friction(&format!("block \"{name}\": friction"), friction)?;
+        }
+        let body = Body { name, shape, box_size, pose, density, friction, fixed };
+        positive(&format!("block \"{}\": mass", body.name), body.mass())?;
+        for moment in body.shape.moments() {
+            positive(&format!("block \"{}\": moment of inertia", body.name), body.density * moment)?;
+        }
+        let index = self.bodies.len();
+        self.index.insert(body.name.clone(), index);
+        self.bodies.push(body);
+        Ok(index)
+    }
+
+    /// The given name if it is free, or a default one: "b" and the index, with a dash and a number
+    /// behind it when a block has been given just that name.
+    pub(crate) fn free_name(&self, options: &BodyOptions) -> Result<String, SceneError> {
+        if let Some(name) = &options.name {
+            return match self.index.get(name) {
+                Some(&index) => Err(SceneError::DuplicateName { name: name.clone(), index }),
+                None if name.is_empty() => Err(SceneError::EmptyName),
+                None => Ok(name.clone()),
+            };
+        }
+        let plain = format!("b{}", self.bodies.len());
+        let mut name = plain.clone();
+        let mut attempt = 2;
+        while self.index.contains_key(&name) {
+            name = format!("{plain}-{attempt}");
+            attempt += 1;
+        }
+        Ok(name)
+    }
+
+    /// Every block, in the order they were added.
+    pub fn bodies(&self) -> &[Body<S>] {
+        &self.bodies
+    }
+
+    /// Index of the block with this name.
+    pub fn index_of(&self, name: &str) -> Result<usize, SceneError> {
+        self.index.get(name).copied().ok_or_else(|| SceneError::UnknownName {
+            name: name.to_owned(),
+            nearest: nearest(name, self.bodies.iter().map(|body| body.name.as_str())),
+        })
+    }
+
+    /// Acceleration of gravity, m/s^2.
+    pub fn gravity(&self) -> S::Vector {
+        self.gravity
+    }
+
+    /// The coefficient of friction of a block without one of its own.
+    pub fn friction(&self) -> f64 {
+        self.friction
+    }
+
+    /// The one contact tolerance for every pair, metres, if the scene sets it.
+    pub fn contact_tolerance(&self) -> Option<f64> {
+        self.contact_tolerance
+    }
+
+    /// Coefficient of friction between two blocks: the smaller of theirs. A contact then never
+    /// claims more grip than either of its surfaces allows, so a verdict errs on the safe side.
+    pub fn pair_friction(&self, a: usize, b: usize) -> f64 {
+        let own = |i: usize| self.bodies[i].friction.unwrap_or(self.friction);
+        own(a).min(own(b))
+    }
+}
+
+impl Scene {
     /// Adds a rectangle with the given centre and size (width, height), turned by `angle`.
     /// Returns the block's index.
     pub fn add_box(
@@ -133,101 +233,13 @@ impl Scene {
         let position = frame.transform(centroid.into()).to_array();
         self.push(name, polygon, None, Pose { position, ..frame }, options)
     }
-
-    /// Moves a block.
-    pub(crate) fn set_pose(&mut self, index: usize, pose: Pose) {
-        self.bodies[index].pose = pose;
-    }
-
-    /// Takes a block out; those after it move up by one.
-    pub(crate) fn remove(&mut self, index: usize) {
-        self.bodies.remove(index);
-        self.index = self.bodies.iter().enumerate().map(|(k, body)| (body.name.clone(), k)).collect();
-    }
-
-    fn push(
-        &mut self,
-        name: String,
-        polygon: Polygon,
-        box_size: Option<[f64; 2]>,
-        pose: Pose,
-        options: BodyOptions,
-    ) -> Result<usize, SceneError> {
-        let BodyOptions { density, friction, fixed, .. } = options;
-        positive(&format!("block \"{name}\": density"), density)?;
-        if let Some(friction) = friction {
-            check_friction(&format!("block \"{name}\": friction"), friction)?;
-        }
-        let body = Body { name, polygon, box_size, pose, density, friction, fixed };
-        positive(&format!("block \"{}\": mass", body.name), body.mass())?;
-        positive(&format!("block \"{}\": moment of inertia", body.name), body.inertia())?;
-        let index = self.bodies.len();
-        self.index.insert(body.name.clone(), index);
-        self.bodies.push(body);
-        Ok(index)
-    }
-
-    /// The given name if it is free, or a default one: "b" and the index, with a dash and a number
-    /// behind it when a block has been given just that name.
-    fn free_name(&self, options: &BodyOptions) -> Result<String, SceneError> {
-        if let Some(name) = &options.name {
-            return match self.index.get(name) {
-                Some(&index) => Err(SceneError::DuplicateName { name: name.clone(), index }),
-                None if name.is_empty() => Err(SceneError::EmptyName),
-                None => Ok(name.clone()),
-            };
-        }
-        let plain = format!("b{}", self.bodies.len());
-        let mut name = plain.clone();
-        let mut attempt = 2;
-        while self.index.contains_key(&name) {
-            name = format!("{plain}-{attempt}");
-            attempt += 1;
-        }
-        Ok(name)
-    }
-
-    /// Every block, in the order they were added.
-    pub fn bodies(&self) -> &[Body] {
-        &self.bodies
-    }
-
-    /// Index of the block with this name.
-    pub fn index_of(&self, name: &str) -> Result<usize, SceneError> {
-        self.index.get(name).copied().ok_or_else(|| SceneError::UnknownName {
-            name: name.to_owned(),
-            nearest: nearest(name, self.bodies.iter().map(|body| body.name.as_str())),
-        })
-    }
-
-    /// Acceleration of gravity, m/s^2.
-    pub fn gravity(&self) -> [f64; 2] {
-        self.gravity
-    }
-
-    /// The coefficient of friction of a block without one of its own.
-    pub fn friction(&self) -> f64 {
-        self.friction
-    }
-
-    /// The one contact tolerance for every pair, metres, if the scene sets it.
-    pub fn contact_tolerance(&self) -> Option<f64> {
-        self.contact_tolerance
-    }
-
-    /// Coefficient of friction between two blocks: the smaller of theirs. A contact then never
-    /// claims more grip than either of its surfaces allows, so a verdict errs on the safe side.
-    pub fn pair_friction(&self, a: usize, b: usize) -> f64 {
-        let own = |i: usize| self.bodies[i].friction.unwrap_or(self.friction);
-        own(a).min(own(b))
-    }
 }
 
-fn finite(place: &str, value: f64) -> Result<(), SceneError> {
+pub(crate) fn finite(place: &str, value: f64) -> Result<(), SceneError> {
     if value.is_finite() { Ok(()) } else { Err(SceneError::NotFinite { place: place.to_owned(), value }) }
 }
 
-fn positive(place: &str, value: f64) -> Result<(), SceneError> {
+pub(crate) fn positive(place: &str, value: f64) -> Result<(), SceneError> {
     finite(place, value)?;
     if value > 0.0 { Ok(()) } else { Err(SceneError::NotPositive { place: place.to_owned(), value }) }
 }

@@ -4,8 +4,8 @@
 use crate::{
     check::{self, Verdict},
     error::SceneError,
-    formulate::{Assembly, BlockSet},
-    scene::Scene,
+    formulate::{Assemble, Assembly, BlockRows, BlockSet},
+    scene::SceneOf,
 };
 use drystone_lcp::{
     Counts, Status,
@@ -18,6 +18,7 @@ use drystone_lcp::{
 /// are in.
 pub(crate) fn put_up(
     solver: &mut ConeSolver,
+    rows: &BlockRows,
     blocks: impl IntoIterator<Item = usize>,
     mut go_on: impl FnMut(usize) -> bool,
 ) -> bool {
@@ -28,7 +29,7 @@ pub(crate) fn put_up(
         if placed > 0 {
             solver.decide();
         }
-        solver.add_rows(&Assembly::equilibrium_rows(block));
+        solver.add_rows(rows.of(block));
     }
     true
 }
@@ -54,6 +55,7 @@ pub struct Structure {
     assembly: Assembly,
     blocks: BlockSet,
     solver: ConeSolver,
+    rows: BlockRows,
     /// Place of each block in the order from the supports upward.
     height: Vec<usize>,
     /// Blocks put up since the last question.
@@ -65,7 +67,7 @@ impl Structure {
     ///
     /// # Errors
     /// [`SceneError::Overlap`].
-    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
+    pub fn new<S: Assemble>(scene: &SceneOf<S>) -> Result<Self, SceneError> {
         Assembly::new(scene).map(Self::of)
     }
 
@@ -74,7 +76,7 @@ impl Structure {
         let mut height = vec![0; assembly.blocks()];
         assembly.upward().into_iter().enumerate().for_each(|(place, block)| height[block] = place);
         let (blocks, solver) = (BlockSet::empty(assembly.blocks()), assembly.equilibrium());
-        Self { assembly, blocks, solver, height, new: Vec::new() }
+        Self { rows: assembly.equilibrium_rows(), assembly, blocks, solver, height, new: Vec::new() }
     }
 
     /// The complete assembly.
@@ -106,7 +108,7 @@ impl Structure {
         self.blocks.remove(block);
         match self.new.iter().position(|&new| new == block) {
             Some(place) => drop(self.new.remove(place)),
-            None => self.solver.remove_rows(&Assembly::equilibrium_rows(block)),
+            None => self.solver.remove_rows(self.rows.of(block)),
         }
     }
 
@@ -114,7 +116,7 @@ impl Structure {
     fn put_up(&mut self) {
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
-        put_up(&mut self.solver, new, |_| true);
+        put_up(&mut self.solver, &self.rows, new, |_| true);
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.

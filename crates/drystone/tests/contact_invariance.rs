@@ -109,12 +109,20 @@ fn assert_same(found: &ContactSet, expected: &[Contact]) -> Result<(), TestCaseE
     for (a, b) in found.contacts.iter().zip(&expected) {
         prop_assert_eq!(a.id, b.id);
         // Coordinates up to some hundred metres: rounding of a few 1e-14.
-        let near = |x: [f64; 2], y: [f64; 2]| (x[0] - y[0]).hypot(x[1] - y[1]) < 1e-11;
+        let near = |x: [f64; 3], y: [f64; 3]| (0..3).all(|k| (x[k] - y[k]).abs() < 1e-11);
         prop_assert!(near(a.point, b.point), "{:?} instead of {:?}", a.point, b.point);
         prop_assert!(near(a.normal, b.normal), "{:?} instead of {:?}", a.normal, b.normal);
         prop_assert!((a.gap - b.gap).abs() < 1e-11);
     }
     Ok(())
+}
+
+fn in_plane([x, y, _]: [f64; 3]) -> Vector {
+    Vector::new(x, y)
+}
+
+fn in_space(v: Vector) -> [f64; 3] {
+    [v.x, v.y, 0.0]
 }
 
 proptest! {
@@ -140,8 +148,8 @@ proptest! {
             outlines.iter().map(|o| o.iter().map(|v| motion.transform(*v)).collect()).collect();
         let after = contacts(&scene_of(moved.iter())).unwrap();
         let along = |contact: &Contact| Contact {
-            point: motion.transform(contact.point.into()).to_array(),
-            normal: motion.rotate(contact.normal.into()).to_array(),
+            point: in_space(motion.transform(in_plane(contact.point))),
+            normal: in_space(motion.rotate(in_plane(contact.normal))),
             ..contact.clone()
         };
         let expected: Vec<Contact> = set.contacts.iter().map(along).collect();

@@ -23,13 +23,13 @@ fn square(scene: &mut Scene, x: f64, y: f64) -> usize {
     scene.add_box([x, y], [1.0, 1.0], 0.0, movable()).unwrap()
 }
 
-fn assert_near(found: [f64; 2], expected: [f64; 2]) {
-    let distance = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+fn assert_near(found: [f64; 3], expected: [f64; 3]) {
+    let distance = (0..3).map(|k| (found[k] - expected[k]).powi(2)).sum::<f64>().sqrt();
     assert!(distance <= ROUNDING, "{found:?} instead of {expected:?}");
 }
 
 fn points(set: &ContactSet) -> Vec<[f64; 2]> {
-    set.contacts.iter().map(|c| c.point).collect()
+    set.contacts.iter().map(|c| [c.point[0], c.point[1]]).collect()
 }
 
 #[test]
@@ -42,7 +42,7 @@ fn a_square_on_a_square_touches_at_both_ends_of_the_shared_face() {
     assert_eq!(points(&set), [[-0.25, 0.5], [0.5, 0.5]]);
     for (end, contact) in set.contacts.iter().enumerate() {
         assert_eq!(contact.id.feature, Feature::Faces { a: 2, b: 0, end });
-        assert_eq!(contact.normal, [0.0, 1.0]);
+        assert_eq!(contact.normal, [0.0, 1.0, 0.0]);
         assert_eq!(contact.gap, 0.0);
         assert_eq!(contact.friction, 0.5);
     }
@@ -78,7 +78,7 @@ fn side_by_side_faces_count() {
     square(&mut scene, 1.0, 0.0);
     let set = find_contacts(&scene).unwrap();
     assert_eq!(points(&set), [[0.5, 0.5], [0.5, -0.5]]);
-    assert!(set.contacts.iter().all(|c| c.normal == [1.0, 0.0]));
+    assert!(set.contacts.iter().all(|c| c.normal == [1.0, 0.0, 0.0]));
 }
 
 #[test]
@@ -90,8 +90,8 @@ fn a_square_on_its_corner_touches_once() {
     let set = find_contacts(&scene).unwrap();
     assert_eq!(set.contacts.len(), 1);
     let Contact { id, point, normal, .. } = &set.contacts[0];
-    assert_near(*point, [0.3, 0.0]);
-    assert_near(*normal, [0.0, 1.0]);
+    assert_near(*point, [0.3, 0.0, 0.0]);
+    assert_near(*normal, [0.0, 1.0, 0.0]);
     // Turned by 45 degrees, the lower left corner (0) points straight down.
     assert_eq!(id.feature, Feature::CornerOfB { a: 2, b: 0 });
 }
@@ -103,8 +103,8 @@ fn a_face_on_a_corner_touches_once_with_the_faces_normal() {
     square(&mut scene, 0.6, 0.5);
     let set = find_contacts(&scene).unwrap();
     assert_eq!(set.contacts.len(), 1);
-    assert_near(set.contacts[0].point, [0.5, 0.0]);
-    assert_near(set.contacts[0].normal, [0.0, 1.0]);
+    assert_near(set.contacts[0].point, [0.5, 0.0, 0.0]);
+    assert_near(set.contacts[0].normal, [0.0, 1.0, 0.0]);
     assert_eq!(set.contacts[0].id.feature, Feature::CornerOfA { a: 2, b: 0 });
 }
 
@@ -122,7 +122,7 @@ fn meeting_at_a_corner_of_each_is_recorded_and_bears_nothing() {
     assert_eq!(set.corner_touches, [[0, 1], [2, 3]]);
     assert_eq!(set.contacts.len(), 1);
     assert_eq!(set.contacts[0].bodies, [0, 2]);
-    assert_near(set.contacts[0].normal, [-1.0, 0.0]);
+    assert_near(set.contacts[0].normal, [-1.0, 0.0, 0.0]);
 }
 
 #[test]

@@ -34,5 +34,5 @@ fn forces_balance_every_block_of_a_tall_column() {
     assert!(verdict.stable);
     let bottom: f64 = verdict.forces.iter().filter(|(c, _)| c.bodies[0] == 0).map(|(_, force)| force.normal).sum();
     assert!((bottom / (999.0 * 9.81) - 1.0).abs() < 1e-9, "{bottom}");
-    assert!(verdict.accelerations.iter().flatten().all(|a| a.abs() < 1e-8));
+    assert!(verdict.accelerations.iter().flat_map(|a| a.in_plane()).all(|a| a.abs() < 1e-8));
 }

@@ -33,14 +33,15 @@ fn assembly_order(scene: &Scene, assembly: &Assembly) -> Vec<usize> {
 
 /// Force (N) and moment about the centroid (N m) that are missing to rest, from points and vectors alone.
 fn imbalance(assembly: &Assembly, block: usize, forces: &[ContactForce]) -> f64 {
-    let [cx, cy] = assembly.body(block).pose.position;
-    let mut total = assembly.applied(block);
+    let [cx, cy, _] = assembly.body(block).center;
+    let mut total = assembly.applied(block).to_vec();
     for force in forces {
         let contact = &assembly.contacts()[force.contact];
         for (body, sign) in contact.bodies.into_iter().zip([-1.0, 1.0]) {
             if body == assembly.body_index(block) {
-                let ([x, y], [fx, fy]) = (contact.point, force.force.map(|f| sign * f));
-                total = [total[0] + fx, total[1] + fy, total[2] + (x - cx) * fy - (y - cy) * fx];
+                let ([x, y, _], [fx, fy, _]) = (contact.point, force.force.map(|f| sign * f));
+                let wrench = [fx, fy, (x - cx) * fy - (y - cy) * fx];
+                total.iter_mut().zip(wrench).for_each(|(total, part)| *total += part);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Polygons: measures known in closed form, and what is refused.
 
-use drystone::geometry::{Polygon, Pose, ShapeFault, Vector};
+use drystone::geometry::{Polygon, Pose, Shape, ShapeFault, Vector};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 fn polygon(corners: &[[f64; 2]]) -> (Polygon, [f64; 2]) {

@@ -28,8 +28,8 @@ fn a_column_has_one_fixed_square_and_two_points_a_joint() {
     assert_eq!(set.contacts.len(), 2 * 49);
     for (k, pair) in set.contacts.chunks(2).enumerate() {
         let height = k as f64;
-        assert_eq!([pair[0].point, pair[1].point], [[-0.5, height], [0.5, height]]);
-        assert!(pair.iter().all(|c| c.normal == [0.0, 1.0] && c.gap == 0.0));
+        assert_eq!([pair[0].point, pair[1].point], [[-0.5, height, 0.0], [0.5, height, 0.0]]);
+        assert!(pair.iter().all(|c| c.normal == [0.0, 1.0, 0.0] && c.gap == 0.0));
     }
 }
 

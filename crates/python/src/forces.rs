@@ -2,10 +2,10 @@
 
 use crate::{
     arrays::{matrix, vector},
-    errors::plan_error,
+    errors::{plan_error, scene_error},
     scene::Scene,
 };
-use drystone::{SceneError, formulate::Assembly, plan as core};
+use drystone::{formulate::Assembly, plan as core};
 use numpy::{PyArray1, PyArray2};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::time::{Duration, Instant};
@@ -27,7 +27,7 @@ struct Gathered {
     stands: Vec<bool>,
     offsets: Vec<i64>,
     contact: Vec<i64>,
-    force: Vec<[f64; 2]>,
+    force: Vec<[f64; 3]>,
 }
 
 impl Gathered {
@@ -58,9 +58,9 @@ pub fn forces_along(
     }
     let mut gathered = Gathered { offsets: vec![0], ..Gathered::default() };
     let (mut last, mut stopped) = (Instant::now(), None);
+    let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
     py.detach(|| {
-        let assembly = Assembly::new(&scene.core)?;
-        let blocks = blocks_of(scene, &assembly, &order)?;
+        let blocks = assembly.named(&order)?;
         let wanted = |placed: usize| (blocks.len() - placed).is_multiple_of(every);
         core::forces_along(&assembly, &blocks, wanted, |structure| {
             let placed = structure.blocks;
@@ -81,16 +81,12 @@ pub fn forces_along(
         stands: vector(py, gathered.stands).unbind(),
         offsets: vector(py, gathered.offsets).unbind(),
         contact: vector(py, gathered.contact).unbind(),
-        force: matrix(py, &gathered.force)?.unbind(),
+        force: if assembly.in_plane() {
+            matrix(py, &gathered.force.iter().map(|f| [f[0], f[1]]).collect::<Vec<_>>())?.unbind()
+        } else {
+            matrix(py, &gathered.force)?.unbind()
+        },
     })
-}
-
-/// The movable blocks that names name, in their order; a fixed body is always there.
-fn blocks_of(scene: &Scene, assembly: &Assembly, names: &[String]) -> Result<Vec<usize>, SceneError> {
-    let mut block_at = vec![None; scene.core.bodies().len()];
-    (0..assembly.blocks()).for_each(|block| block_at[assembly.body_index(block)] = Some(block));
-    let bodies = names.iter().map(|name| scene.core.index_of(name)).collect::<Result<Vec<_>, _>>()?;
-    Ok(bodies.into_iter().filter_map(|body| block_at[body]).collect())
 }
 
 /// Looks for Ctrl-C and reports progress.

@@ -1,6 +1,7 @@
 //! The Python extension module `drystone._core`: conversions only. The public names live in `python/drystone`.
 
 mod arrays;
+mod coordinates;
 mod errors;
 mod forces;
 mod lcp;

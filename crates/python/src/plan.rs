@@ -16,7 +16,7 @@ use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyValueError},
     prelude::*,
 };
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct TestRecord {
@@ -59,11 +59,12 @@ pub struct Generators {
 pub fn generators(py: Python<'_>, scene: &Scene) -> PyResult<Generators> {
     let assembly = Assembly::new(&scene.core).map_err(|error| scene_error(&error))?;
     let (mut indptr, mut indices, mut data) = (vec![0_i64], Vec::new(), Vec::new());
-    let mut bodies = Vec::new();
+    let (mut bodies, components) = (Vec::new(), assembly.components());
     for generator in assembly.generators() {
         for wrench in &generator.wrenches {
-            indices.extend((0..3).map(|k| (3 * wrench.block + k) as i64));
-            data.extend(wrench.value);
+            let first = components.len() * wrench.block;
+            indices.extend((0..components.len()).map(|k| (first + k) as i64));
+            data.extend(components.iter().map(|&k| wrench.value[k]));
         }
         indptr.push(indices.len() as i64);
         let block = |k: usize| generator.wrenches.get(k).map_or(-1, |wrench| wrench.block as i64);
@@ -76,8 +77,8 @@ pub fn generators(py: Python<'_>, scene: &Scene) -> PyResult<Generators> {
         indptr: vector(py, indptr).unbind(),
         indices: vector(py, indices).unbind(),
         data: vector(py, data).unbind(),
-        applied: vector(py, blocks.clone().flat_map(|block| assembly.applied(block)).collect()).unbind(),
-        inverse_mass: vector(py, blocks.flat_map(|block| assembly.inverse_mass(block)).collect()).unbind(),
+        applied: vector(py, blocks.clone().flat_map(|block| assembly.applied(block)).copied().collect()).unbind(),
+        inverse_mass: vector(py, blocks.flat_map(|block| assembly.inverse_mass(block)).copied().collect()).unbind(),
         bodies: bodies.unbind(),
         contact: vector(py, assembly.generators().iter().map(|g| g.contact as i64).collect()).unbind(),
     })
@@ -118,20 +119,19 @@ pub fn plan(
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
     let mut watch = Watch::new(progress);
-    let scene = &scene.core;
+    let start = Instant::now();
+    let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
+    let contacts = start.elapsed();
     let planned = if test.is_callable() {
         let mut test = Callback { function: test.clone().unbind() };
-        py.detach(|| {
-            let assembly = Assembly::new(scene)?;
-            core::plan_with(&assembly, &mut test, limits, &mut watch)
-        })
+        py.detach(|| core::plan_with(&assembly, &mut test, limits, &mut watch))
     } else {
         let test = named_test(&test.extract::<String>()?)?;
-        py.detach(|| core::plan(scene, test, limits, &mut watch))
+        py.detach(|| core::plan_assembly(&assembly, test, limits, &mut watch))
     };
     match watch.error() {
         Some(error) => Err(error),
-        None => to_python(py, scene, &planned.map_err(plan_error)?),
+        None => to_python(py, &assembly, &planned.map_err(plan_error)?, contacts),
     }
 }
 
@@ -146,13 +146,13 @@ fn named_test(name: &str) -> PyResult<Test> {
     }
 }
 
-fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyResult<Plan> {
-    let names = |bodies: &[usize]| bodies.iter().map(|&index| scene.bodies()[index].name.clone()).collect();
+fn to_python(py: Python<'_>, assembly: &Assembly, plan: &core::Plan, contacts: Duration) -> PyResult<Plan> {
+    let names = |bodies: &[usize]| bodies.iter().map(|&index| assembly.bodies()[index].name.clone()).collect();
     let record = |record: &core::TestRecord| {
         let (TestOutcome { stands, pivots }, seconds) = (record.outcome, record.time.as_secs_f64());
         Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
     };
-    let verdict = |whole| Py::new(py, Verdict::new(py, scene, whole, plan.whole_time)?);
+    let verdict = |whole| Py::new(py, Verdict::new(py, assembly, whole, plan.whole_time)?);
     let whole = plan.whole.as_ref().map(verdict);
     Ok(Plan {
         status: plan.outcome.name().to_owned(),
@@ -163,7 +163,7 @@ fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyRe
         tests: plan.records.len(),
         pivots: plan.pivots(),
         test_seconds: plan.test_time().as_secs_f64(),
-        seconds: plan.total.as_secs_f64(),
+        seconds: (contacts + plan.total).as_secs_f64(),
         records: plan.records.iter().map(record).collect::<PyResult<_>>()?,
         shortcuts: plan.shortcuts,
         whole: whole.transpose()?,
@@ -173,7 +173,8 @@ fn to_python(py: Python<'_>, scene: &drystone::Scene, plan: &core::Plan) -> PyRe
 /// Every sub-assembly of a small scene with the verdict on it.
 #[pyfunction]
 pub fn disassembly_graph(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(Vec<String>, bool)>> {
-    let nodes = py.detach(|| core::disassembly_graph(&scene.core)).map_err(plan_error)?;
-    let name = |&index: &usize| scene.core.bodies()[index].name.clone();
+    let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
+    let nodes = py.detach(|| core::disassembly_graph(&assembly)).map_err(plan_error)?;
+    let name = |&index: &usize| assembly.bodies()[index].name.clone();
     Ok(nodes.iter().map(|node| (node.bodies.iter().map(name).collect(), node.stands)).collect())
 }

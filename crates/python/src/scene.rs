@@ -1,6 +1,6 @@
 //! `Scene` and what it shows of itself.
 
-use crate::{arrays::matrix, errors::scene_error};
+use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error};
 use drystone::{BodyOptions, Scene as CoreScene, find_contacts, io, scenes};
 use numpy::PyArray2;
 use pyo3::{exceptions::PyTypeError, prelude::*, types::PyDict};
@@ -31,8 +31,8 @@ pub struct Contact {
     a: String,
     b: String,
     feature: String,
-    point: (f64, f64),
-    normal: (f64, f64),
+    point: Coordinates,
+    normal: Coordinates,
     gap: f64,
     friction: f64,
 }
@@ -140,8 +140,8 @@ impl Scene {
             a: self.name_of(c.bodies[0]),
             b: self.name_of(c.bodies[1]),
             feature: c.id.feature.to_string(),
-            point: c.point.into(),
-            normal: c.normal.into(),
+            point: Coordinates::of(c.point, true),
+            normal: Coordinates::of(c.normal, true),
             gap: c.gap,
             friction: c.friction,
         };

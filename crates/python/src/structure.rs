@@ -13,7 +13,6 @@ use std::time::Instant;
 #[pyclass(module = "drystone._core")]
 pub struct Structure {
     core: Core,
-    scene: drystone::Scene,
     /// Of the analysis of the complete assembly, once its contacts are known.
     #[pyo3(get)]
     set_up_seconds: f64,
@@ -26,7 +25,7 @@ impl Structure {
         let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
         let start = Instant::now();
         let core = Core::of(assembly);
-        Ok(Self { core, scene: scene.core.clone(), set_up_seconds: start.elapsed().as_secs_f64() })
+        Ok(Self { core, set_up_seconds: start.elapsed().as_secs_f64() })
     }
 
     fn names(&self) -> Vec<String> {
@@ -56,7 +55,7 @@ impl Structure {
     fn check(&mut self, py: Python<'_>) -> PyResult<Verdict> {
         let start = Instant::now();
         let verdict = py.detach(|| self.core.check());
-        Verdict::new(py, &self.scene, &verdict, start.elapsed())
+        Verdict::new(py, self.core.assembly(), &verdict, start.elapsed())
     }
 
     fn pivots(&self) -> usize {

@@ -1,9 +1,9 @@
 //! `check` and its answer.
 
-use crate::{arrays::matrix, errors::scene_error, scene::Scene, watch::Watch};
+use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::Watch};
 use drystone::{
-    Scene as CoreScene,
     check::{Route, check_while},
+    formulate::Assembly,
     simulate::ContactImpulse,
 };
 use numpy::PyArray2;
@@ -19,11 +19,11 @@ pub struct ContactForce {
     a: String,
     b: String,
     feature: String,
-    point: (f64, f64),
-    normal: (f64, f64),
+    point: Coordinates,
+    normal: Coordinates,
     normal_force: f64,
     tangential_force: f64,
-    force: (f64, f64),
+    force: Coordinates,
 }
 
 #[pyclass(frozen, get_all, module = "drystone._core")]
@@ -59,18 +59,20 @@ impl ContactForce {
 }
 
 impl Verdict {
-    pub fn new(py: Python<'_>, scene: &CoreScene, verdict: &drystone::Verdict, time: Duration) -> PyResult<Self> {
-        let name = |&index: &usize| scene.bodies()[index].name.clone();
+    pub fn new(py: Python<'_>, assembly: &Assembly, verdict: &drystone::Verdict, time: Duration) -> PyResult<Self> {
+        let name = |&index: &usize| assembly.bodies()[index].name.clone();
+        let coordinates = |of: [f64; 3]| Coordinates::of(of, assembly.in_plane());
+        let accelerations = verdict.accelerations.iter();
         let force = |(contact, force): &(drystone::Contact, drystone::formulate::ContactForce)| {
             let force = ContactForce {
                 a: name(&contact.bodies[0]),
                 b: name(&contact.bodies[1]),
                 feature: contact.id.feature.to_string(),
-                point: contact.point.into(),
-                normal: contact.normal.into(),
+                point: coordinates(contact.point),
+                normal: coordinates(contact.normal),
                 normal_force: force.normal,
                 tangential_force: force.tangential,
-                force: force.force.into(),
+                force: coordinates(force.force),
             };
             Py::new(py, force)
         };
@@ -79,7 +81,11 @@ impl Verdict {
             stable: verdict.stable,
             forces: verdict.forces.iter().map(force).collect::<PyResult<_>>()?,
             names: verdict.checked.iter().map(name).collect(),
-            accelerations: matrix(py, &verdict.accelerations)?.unbind(),
+            accelerations: if assembly.in_plane() {
+                matrix(py, &accelerations.map(|a| a.in_plane()).collect::<Vec<_>>())?.unbind()
+            } else {
+                matrix(py, &accelerations.map(|a| a.components()).collect::<Vec<_>>())?.unbind()
+            },
             falling: verdict.falling.iter().map(name).collect(),
             pivots: verdict.counts.pivots,
             major_cycles: verdict.counts.major_cycles,
@@ -103,9 +109,14 @@ pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>, method:
     };
     let start = Instant::now();
     let mut watch = Watch::new(None);
-    let checked = py.detach(|| check_while(&scene.core, blocks.as_deref(), route, &mut |_| watch.no_interrupt()));
-    match checked.map_err(|error| scene_error(&error))? {
-        Some(verdict) => Verdict::new(py, &scene.core, &verdict, start.elapsed()),
+    let checked = py.detach(|| {
+        let assembly = Assembly::new(&scene.core)?;
+        let verdict = check_while(&assembly, blocks.as_deref(), route, &mut |_| watch.no_interrupt())?;
+        Ok((assembly, verdict))
+    });
+    let (assembly, verdict) = checked.map_err(|error| scene_error(&error))?;
+    match verdict {
+        Some(verdict) => Verdict::new(py, &assembly, &verdict, start.elapsed()),
         None => Err(watch.error().unwrap_or_else(|| PyKeyboardInterrupt::new_err(()))),
     }
 }

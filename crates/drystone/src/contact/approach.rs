@@ -19,7 +19,7 @@ use super::{
     narrow_phase::{Outline, greatest_separation, most_opposed},
     pair_tolerance,
 };
-use crate::geometry::Vector;
+use crate::geometry::{Shape, Vector};
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
@@ -159,7 +159,7 @@ pub const MOST_TURN: f64 = 1.0;
 fn reach(scene: &Scene, i: usize, [x, y, turn]: &Travel) -> f64 {
     let body = &scene.bodies()[i];
     super::tolerance_of(scene, body)
-        + if body.fixed { 0.0 } else { x.hypot(*y) + turn.abs().min(2.0) * body.polygon.radius() }
+        + if body.fixed { 0.0 } else { x.hypot(*y) + turn.abs().min(2.0) * body.shape.radius() }
 }
 
 /// Two bodies that may meet. Everything is relative to the first one's centroid.

@@ -36,5 +36,5 @@ pub(super) fn pairs_within(bodies: &[Body], reach: impl Fn(usize) -> f64) -> Vec
 }
 
 fn bounding_box(body: &Body) -> Aabb {
-    Aabb::from_points(body.polygon.vertices().iter().map(|&v| body.pose.transform(v)))
+    Aabb::from_points(body.shape.vertices().iter().map(|&v| body.pose.transform(v)))
 }

@@ -18,8 +18,8 @@ mod narrow_phase;
 pub use id::{ContactId, Feature};
 
 use crate::error::SceneError;
-use crate::geometry::Vector;
-use crate::scene::{Body, Scene};
+use crate::geometry::{Shape, Vector};
+use crate::scene::{Body, Scene, SceneOf};
 use narrow_phase::{Outline, Touch};
 
 /// Default contact tolerance as a share of the narrower block's width.
@@ -32,10 +32,10 @@ pub struct Contact {
     pub id: ContactId,
     /// Indices of the two blocks, the lower first.
     pub bodies: [usize; 2],
-    /// Where they meet, world coordinates, metres: halfway across the gap.
-    pub point: [f64; 2],
-    /// Unit vector from `bodies[0]` into `bodies[1]`.
-    pub normal: [f64; 2],
+    /// Where they meet, world coordinates, metres: halfway across the gap. In the plane z is 0.
+    pub point: [f64; 3],
+    /// Unit vector from `bodies[0]` into `bodies[1]`. In the plane z is 0.
+    pub normal: [f64; 3],
     /// Distance of the two surfaces here, metres: negative where they overlap within tolerance.
     pub gap: f64,
     /// Coefficient of friction of the pair.
@@ -80,8 +80,8 @@ pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
             Touch::At(points) => found.contacts.extend(points.into_iter().map(|p| Contact {
                 id: ContactId { bodies: [a, b], feature: p.feature },
                 bodies: [a, b],
-                point: (origin + p.point).to_array(),
-                normal: p.normal.to_array(),
+                point: in_space(origin + p.point),
+                normal: in_space(p.normal),
                 gap: p.gap,
                 friction: scene.pair_friction(a, b),
             })),
@@ -98,13 +98,18 @@ pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
     }
 }
 
+/// A planar vector as one in space.
+fn in_space(v: Vector) -> [f64; 3] {
+    [v.x, v.y, 0.0]
+}
+
 /// The contact tolerance of a pair, metres.
-pub(crate) fn pair_tolerance(scene: &Scene, a: &Body, b: &Body) -> f64 {
+pub(crate) fn pair_tolerance<S: Shape>(scene: &SceneOf<S>, a: &Body<S>, b: &Body<S>) -> f64 {
     tolerance_of(scene, a).min(tolerance_of(scene, b))
 }
 
 /// The largest contact tolerance a block can have in any pair, metres.
-fn tolerance_of(scene: &Scene, body: &Body) -> f64 {
-    let derived = RELATIVE_TOLERANCE * body.polygon.width();
+fn tolerance_of<S: Shape>(scene: &SceneOf<S>, body: &Body<S>) -> f64 {
+    let derived = RELATIVE_TOLERANCE * body.shape.width();
     scene.contact_tolerance().unwrap_or(derived)
 }

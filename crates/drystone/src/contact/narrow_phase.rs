@@ -50,7 +50,7 @@ pub(super) struct Outline {
 
 impl Outline {
     pub fn of(body: &Body) -> Self {
-        let turned = body.polygon.vertices().iter().map(|&v| body.pose.rotate(v));
+        let turned = body.shape.vertices().iter().map(|&v| body.pose.rotate(v));
         let vertices: Vec<Vector> = turned.collect();
         let n = vertices.len();
         let normal = |k: usize| -(vertices[(k + 1) % n] - vertices[k]).normalize_or_zero().perp();

@@ -2,12 +2,15 @@
 
 use super::{
     block_set::BlockSet,
-    generator::{Bodies, Generator, axis_share},
+    cones::{Cones, cone_edges},
+    generator::{Bodies, Generator},
+    part::{Assemble, Components, Part, dot, length},
 };
 use crate::{
-    contact::{Contact, ContactSet, find_contacts},
+    contact::{Contact, ContactSet},
     error::SceneError,
-    scene::{Body, Scene},
+    scene::SceneOf,
+    suggest::nearest,
 };
 use drystone_lcp::{
     Problem,
@@ -17,8 +20,11 @@ use drystone_lcp::{
 /// Contacts, generators and loads of a scene.
 #[derive(Debug, Clone)]
 pub struct Assembly {
-    bodies: Vec<Body>,
-    gravity: [f64; 2],
+    bodies: Vec<Part>,
+    gravity: [f64; 3],
+    cones: Cones,
+    /// Components of a block's wrench: three in the plane, six in space.
+    components: &'static [usize],
     contacts: ContactSet,
     movable: Vec<usize>,
     generators: Vec<Generator>,
@@ -27,8 +33,10 @@ pub struct Assembly {
     axis_of: Vec<Option<usize>>,
     /// Generators that act on each movable block.
     generators_on: Vec<Vec<usize>>,
-    /// Diagonal of `M^-1` for each movable block: 1/kg, 1/kg, 1/(kg m^2).
-    inverse_mass: Vec<[f64; 3]>,
+    /// Diagonal of `M^-1`, block after block.
+    inverse_mass: Vec<f64>,
+    /// Applied wrenches `F`, block after block.
+    applied: Vec<f64>,
 }
 
 /// The force that the first body of a contact exerts on the second, newtons.
@@ -38,56 +46,139 @@ pub struct ContactForce {
     pub contact: usize,
     /// Along the contact normal (first body into second): not negative.
     pub normal: f64,
-    /// Along the normal turned 90 degrees counter-clockwise.
+    /// In the plane along the normal turned 90 degrees counter-clockwise; in space its size, which is not negative.
     pub tangential: f64,
     /// In world axes.
-    pub force: [f64; 2],
+    pub force: [f64; 3],
+}
+
+/// Acceleration of a block in world axes; in the plane x, y and the turn about z are in use.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Acceleration {
+    /// Of the centroid, m/s^2.
+    pub linear: [f64; 3],
+    /// rad/s^2.
+    pub angular: [f64; 3],
+}
+
+impl Acceleration {
+    /// x, y and the turn: all there is in the plane.
+    pub fn in_plane(self) -> [f64; 3] {
+        [self.linear[0], self.linear[1], self.angular[2]]
+    }
+
+    /// All six in one.
+    pub fn components(self) -> [f64; 6] {
+        let ([x, y, z], [a, b, c]) = (self.linear, self.angular);
+        [x, y, z, a, b, c]
+    }
+}
+
+/// Rows of [`Assembly::equilibrium`] by block.
+#[derive(Debug, Clone)]
+pub struct BlockRows {
+    components: usize,
+    all: Vec<usize>,
+}
+
+impl BlockRows {
+    /// Rows of so many blocks with these [`Components`].
+    pub fn of_components(components: &[usize], blocks: usize) -> Self {
+        Self { components: components.len(), all: (0..components.len() * blocks).collect() }
+    }
+
+    /// Rows of a movable block: the components of its wrench.
+    pub fn of(&self, block: usize) -> &[usize] {
+        &self.all[self.components * block..self.components * (block + 1)]
+    }
+
+    /// The movable block that a row belongs to.
+    pub fn block(&self, row: usize) -> usize {
+        row / self.components
+    }
 }
 
 impl Assembly {
-    /// Finds the contacts of a scene and their generators.
+    /// Finds the contacts of a scene and their generators, with the default [`Cones`].
     ///
     /// # Errors
     /// [`SceneError::Overlap`] if blocks overlap.
-    pub fn new(scene: &Scene) -> Result<Self, SceneError> {
-        let contacts = find_contacts(scene)?;
-        let bodies = scene.bodies().to_vec();
+    pub fn new<S: Assemble>(scene: &SceneOf<S>) -> Result<Self, SceneError> {
+        Self::with_cones(scene, Cones::default())
+    }
+
+    /// [`Self::new`] with a choice of friction cones, which the plane has no need of.
+    ///
+    /// # Errors
+    /// [`SceneError::Overlap`] if blocks overlap; [`SceneError::TooFewFacets`].
+    pub fn with_cones<S: Assemble>(scene: &SceneOf<S>, cones: Cones) -> Result<Self, SceneError> {
+        if cones.facets < 3 {
+            return Err(SceneError::TooFewFacets { facets: cones.facets });
+        }
+        let bodies: Vec<Part> = scene.bodies().iter().map(S::part).collect();
         let movable: Vec<usize> = (0..bodies.len()).filter(|&i| !bodies[i].fixed).collect();
-        let mut block_of = vec![None; bodies.len()];
-        for (block, &body) in movable.iter().enumerate() {
+        let components = S::COMPONENTS;
+        let picked = |value: Components| components.iter().map(move |&k| value[k]);
+        let gravity = S::in_space(scene.gravity());
+        let load = |&body: &usize| {
+            let [x, y, z] = gravity.map(|g| bodies[body].mass * g);
+            picked([x, y, z, 0.0, 0.0, 0.0])
+        };
+        let assembly = Self {
+            gravity,
+            cones,
+            components,
+            contacts: S::contacts(scene)?,
+            generators: Vec::new(),
+            axes: Vec::new(),
+            axis_of: Vec::new(),
+            generators_on: vec![Vec::new(); movable.len()],
+            inverse_mass: movable.iter().flat_map(|&body| picked(bodies[body].inverse_mass())).collect(),
+            applied: movable.iter().flat_map(load).collect(),
+            bodies,
+            movable,
+        };
+        Ok(assembly.spanned())
+    }
+
+    /// Adds the generators of the contacts.
+    fn spanned(mut self) -> Self {
+        let mut block_of = vec![None; self.bodies.len()];
+        for (block, &body) in self.movable.iter().enumerate() {
             block_of[body] = Some(block);
         }
-        let spanning = Bodies { bodies: &bodies, movable: |body: usize| block_of[body] };
-        let points = || contacts.contacts.iter().enumerate();
-        let generators: Vec<Generator> =
-            points().flat_map(|(index, contact)| spanning.generators(index, contact)).collect();
-        let axes: Vec<Generator> = points().filter_map(|(index, contact)| spanning.axis(index, contact)).collect();
-        let mut axis_of = vec![None; contacts.contacts.len()];
-        axes.iter().enumerate().for_each(|(k, axis)| axis_of[axis.contact] = Some(k));
-        let mut generators_on = vec![Vec::new(); movable.len()];
-        for (j, generator) in generators.iter().enumerate() {
-            for wrench in &generator.wrenches {
-                generators_on[wrench.block].push(j);
+        let spanning = Bodies { bodies: &self.bodies, movable: |body: usize| block_of[body] };
+        self.axis_of = vec![None; self.contacts.contacts.len()];
+        for (index, contact) in self.contacts.contacts.iter().enumerate() {
+            let edges = self.edges(contact).into_iter();
+            self.generators.extend(edges.map(|direction| spanning.generator(index, contact, direction)));
+            // An axis adds no force that the edges do not have, but one number instead of several says that a contact is
+            // pressed straight.
+            if contact.friction > 0.0 {
+                self.axis_of[index] = Some(self.axes.len());
+                self.axes.push(spanning.generator(index, contact, contact.normal));
             }
         }
-        let inverse_mass = movable
-            .iter()
-            .map(|&body| {
-                let (mass, inertia) = (bodies[body].mass(), bodies[body].inertia());
-                [mass.recip(), mass.recip(), inertia.recip()]
-            })
-            .collect();
-        Ok(Self {
-            gravity: scene.gravity(),
-            bodies,
-            contacts,
-            movable,
-            generators,
-            axes,
-            axis_of,
-            generators_on,
-            inverse_mass,
-        })
+        for (j, generator) in self.generators.iter().enumerate() {
+            for wrench in &generator.wrenches {
+                self.generators_on[wrench.block].push(j);
+            }
+        }
+        self
+    }
+
+    /// Whether the blocks are in the plane.
+    pub fn in_plane(&self) -> bool {
+        self.components.len() == 3
+    }
+
+    /// The edges of a contact's friction cone.
+    fn edges(&self, contact: &Contact) -> Vec<[f64; 3]> {
+        let [nx, ny, _] = contact.normal;
+        match self.in_plane() {
+            true => cone_edges([nx, ny], contact.friction).into_iter().map(|[x, y]| [x, y, 0.0]).collect(),
+            false => self.cones.edges(contact.normal, contact.friction, self.gravity),
+        }
     }
 
     /// Number of movable blocks.
@@ -96,7 +187,7 @@ impl Assembly {
     }
 
     /// The body of a movable block.
-    pub fn body(&self, block: usize) -> &Body {
+    pub fn body(&self, block: usize) -> &Part {
         &self.bodies[self.movable[block]]
     }
 
@@ -106,13 +197,33 @@ impl Assembly {
     }
 
     /// All bodies of the scene, fixed ones too.
-    pub fn bodies(&self) -> &[Body] {
+    pub fn bodies(&self) -> &[Part] {
         &self.bodies
     }
 
+    /// The movable blocks with these names; fixed bodies are left out, for they are always there.
+    ///
+    /// # Errors
+    /// [`SceneError::UnknownName`].
+    pub fn named(&self, names: &[String]) -> Result<Vec<usize>, SceneError> {
+        let of = |name: &String| match self.bodies.iter().position(|body| body.name == *name) {
+            Some(body) => Ok(self.movable.binary_search(&body).ok()),
+            None => {
+                let nearest = nearest(name, self.bodies.iter().map(|body| body.name.as_str()));
+                Err(SceneError::UnknownName { name: name.clone(), nearest })
+            }
+        };
+        names.iter().filter_map(|name| of(name).transpose()).collect()
+    }
+
     /// m/s^2.
-    pub fn gravity(&self) -> [f64; 2] {
+    pub fn gravity(&self) -> [f64; 3] {
         self.gravity
+    }
+
+    /// Which of the six [`Components`] a block has, in the order of its rows.
+    pub fn components(&self) -> &'static [usize] {
+        self.components
     }
 
     /// Every contact point of the complete assembly.
@@ -130,22 +241,20 @@ impl Assembly {
         &self.generators_on[block]
     }
 
-    /// Diagonal of `M^-1` of a movable block: 1/kg, 1/kg, 1/(kg m^2).
-    pub fn inverse_mass(&self, block: usize) -> [f64; 3] {
-        self.inverse_mass[block]
+    /// Diagonal of `M^-1` of a movable block, in the order of its rows: 1/kg and 1/(kg m^2).
+    pub fn inverse_mass(&self, block: usize) -> &[f64] {
+        &self.inverse_mass[self.components.len() * block..self.components.len() * (block + 1)]
     }
 
-    /// Applied wrench on a movable block: its weight, N, N, N m.
-    pub fn applied(&self, block: usize) -> [f64; 3] {
-        let mass = self.body(block).mass();
-        [mass * self.gravity[0], mass * self.gravity[1], 0.0]
+    /// Applied wrench on a movable block, in the order of its rows: its weight, N and N m.
+    pub fn applied(&self, block: usize) -> &[f64] {
+        &self.applied[self.components.len() * block..self.components.len() * (block + 1)]
     }
 
     /// `A = G' M^-1 G` (1/kg) and `b = G' M^-1 F` (m/s^2) of the complete assembly. Equation 8 of Loomis and
     /// Balkcom: a sub-assembly's problem is the principal sub-problem on [`Self::rows`] of its blocks.
     pub fn problem(&self) -> Problem {
-        let inverse_mass = self.inverse_mass.as_flattened();
-        Problem::from_generators(&self.columns(self.generators.iter()), inverse_mass, &self.balance())
+        Problem::from_generators(&self.columns(self.generators.iter()), &self.inverse_mass, &self.balance())
             .expect("a validated scene has finite masses, positions and directions")
     }
 
@@ -165,48 +274,58 @@ impl Assembly {
         solver
     }
 
-    /// In which the imbalance of a block is measured: its weight, its weight, its weight times its radius of gyration.
-    pub(crate) fn balance_unit(&self, block: usize) -> [f64; 3] {
-        let [gx, gy] = self.gravity;
-        let gravity = Some(gx.hypot(gy)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-        let [per_mass, _, per_inertia] = self.inverse_mass[block];
-        let weight = gravity / per_mass;
-        [weight, weight, weight * (per_mass / per_inertia).sqrt()]
+    /// In which the imbalance of a block is measured: its weight for forces, its weight times the radius of gyration for
+    /// moments.
+    pub(crate) fn balance_unit(&self, block: usize) -> impl Iterator<Item = f64> + '_ {
+        let gravity = Some(length(self.gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+        let inverse = self.inverse_mass(block);
+        let weight = gravity / inverse[0];
+        self.components.iter().zip(inverse).map(move |(&k, per_inertia)| match k {
+            0..3 => weight,
+            _ => weight * (inverse[0] / per_inertia).sqrt(),
+        })
     }
 
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.
     pub fn magnitude(&self, solver: &ConeSolver, generator: usize) -> f64 {
         let contact = self.generators[generator].contact;
-        let straight = self.axis_of[contact]
-            .map_or(0.0, |axis| axis_share(&self.contacts()[contact]) * solver.f(self.generators.len() + axis));
+        let straight =
+            self.axis_of[contact].map_or(0.0, |axis| self.axis_share(contact) * solver.f(self.generators.len() + axis));
         solver.f(generator) + straight
     }
 
-    /// Generators as the columns of G, three rows a block.
+    /// What a force of one newton along a contact's axis is in each of its edges, newtons.
+    fn axis_share(&self, contact: usize) -> f64 {
+        let friction = self.contacts()[contact].friction;
+        if self.in_plane() { 0.5 * friction.hypot(1.0) } else { self.cones.axis_share(friction) }
+    }
+
+    /// Generators as the columns of G.
     fn columns<'a>(&self, generators: impl Iterator<Item = &'a Generator>) -> Columns {
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for generator in generators {
             for wrench in &generator.wrenches {
-                let entries = Self::equilibrium_rows(wrench.block).into_iter().zip(wrench.value);
+                let first = self.components.len() * wrench.block;
+                let entries = self.components.iter().map(|&k| wrench.value[k]).enumerate();
                 for (row, value) in entries.filter(|&(_, value)| value != 0.0) {
-                    indices.push(row);
+                    indices.push(first + row);
                     data.push(value);
                 }
             }
             indptr.push(indices.len());
         }
-        Columns::new(3 * self.blocks(), &indptr, &indices, &data)
+        Columns::new(self.components.len() * self.blocks(), &indptr, &indices, &data)
             .expect("a validated scene has finite masses, positions and directions")
     }
 
-    /// What the contact forces have to balance: `-F`, three entries a block.
+    /// What the contact forces have to balance: `-F`.
     fn balance(&self) -> Vec<f64> {
-        (0..self.blocks()).flat_map(|block| self.applied(block).map(|load| -load)).collect()
+        self.applied.iter().map(|load| -load).collect()
     }
 
-    /// Rows of [`Self::equilibrium`] that are a block's x force, y force and moment.
-    pub fn equilibrium_rows(block: usize) -> [usize; 3] {
-        [3 * block, 3 * block + 1, 3 * block + 2]
+    /// Rows of [`Self::equilibrium`] by block.
+    pub fn equilibrium_rows(&self) -> BlockRows {
+        BlockRows::of_components(self.components, self.blocks())
     }
 
     /// Rows of the complete problem that belong to a sub-assembly: generators between its blocks, and between them
@@ -229,11 +348,10 @@ impl Assembly {
     /// among equals. Heights within rounding of one another count as equal, so that a row of a wall is taken in order.
     pub fn upward(&self) -> Vec<usize> {
         const LEVELS: f64 = 1e9;
-        let [gx, gy] = self.gravity;
-        let size = gx.hypot(gy);
-        let height = |block: usize| {
-            let [x, y] = self.body(block).pose.position;
-            if size == 0.0 { 0.0 } else { -(x * gx + y * gy) / size }
+        let size = length(self.gravity);
+        let height = |block: usize| match size {
+            0.0 => 0.0,
+            size => -dot(self.body(block).center, self.gravity) / size,
         };
         let heights: Vec<f64> = (0..self.blocks()).map(height).collect();
         let extent = heights.iter().fold(0.0_f64, |extent, h| extent.max(h.abs())).max(f64::MIN_POSITIVE);
@@ -242,23 +360,28 @@ impl Assembly {
         order
     }
 
-    /// Accelerations `M^-1 (F + G f)` of the blocks of a sub-assembly, in the order of the set: m/s^2, m/s^2,
-    /// rad/s^2. `f(j)` is the magnitude of generator j, N, zero outside the sub-assembly.
-    pub fn accelerations(&self, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> Vec<[f64; 3]> {
-        blocks.iter().map(|block| self.acceleration(block, &f)).collect()
+    /// Accelerations `M^-1 (F + G f)` of the blocks of a sub-assembly, in the order of the set. `f(j)` is the magnitude of
+    /// generator j, N, zero outside the sub-assembly.
+    pub fn accelerations(&self, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> Vec<Acceleration> {
+        let of = |block: usize| {
+            let [x, y, z, turning @ ..] = self.acceleration(block, &f);
+            Acceleration { linear: [x, y, z], angular: self.body(block).in_world(turning) }
+        };
+        blocks.iter().map(of).collect()
     }
 
-    /// Acceleration of one movable block; see [`Self::accelerations`].
-    pub fn acceleration(&self, block: usize, f: impl Fn(usize) -> f64) -> [f64; 3] {
-        let mut wrench = self.applied(block);
+    /// Acceleration of one movable block, turning about its principal axes; see [`Self::accelerations`].
+    pub fn acceleration(&self, block: usize, f: impl Fn(usize) -> f64) -> Components {
+        let mut wrench = [0.0; 6];
+        self.components.iter().zip(self.applied(block)).for_each(|(&k, load)| wrench[k] = *load);
         for &j in &self.generators_on[block] {
             let magnitude = f(j);
             for part in self.generators[j].wrenches.iter().filter(|part| part.block == block) {
-                (0..3).for_each(|k| wrench[k] += magnitude * part.value[k]);
+                self.components.iter().for_each(|&k| wrench[k] += magnitude * part.value[k]);
             }
         }
-        let inverse_mass = self.inverse_mass[block];
-        [0, 1, 2].map(|k| wrench[k] * inverse_mass[k])
+        self.components.iter().zip(self.inverse_mass(block)).for_each(|(&k, inverse)| wrench[k] *= inverse);
+        wrench
     }
 
     /// The force at every contact point that has a generator among `rows` (ascending).
@@ -267,14 +390,20 @@ impl Assembly {
         for &j in rows {
             let Generator { contact, direction, .. } = self.generators[j];
             if forces.last().is_none_or(|last| last.contact != contact) {
-                forces.push(ContactForce { contact, normal: 0.0, tangential: 0.0, force: [0.0; 2] });
+                forces.push(ContactForce { contact, normal: 0.0, tangential: 0.0, force: [0.0; 3] });
             }
-            let [nx, ny] = self.contacts.contacts[contact].normal;
-            let [fx, fy] = direction.map(|d| d * f(j));
+            let part = direction.map(|d| d * f(j));
+            let normal = self.contacts()[contact].normal;
             if let Some(total) = forces.last_mut() {
-                total.normal += fx * nx + fy * ny;
-                total.tangential += fy * nx - fx * ny;
-                total.force = [total.force[0] + fx, total.force[1] + fy];
+                total.normal += dot(part, normal);
+                total.tangential += part[1] * normal[0] - part[0] * normal[1];
+                (0..3).for_each(|k| total.force[k] += part[k]);
+            }
+        }
+        if !self.in_plane() {
+            for force in &mut forces {
+                let normal = self.contacts()[force.contact].normal;
+                force.tangential = length([0, 1, 2].map(|k| force.force[k] - force.normal * normal[k]));
             }
         }
         forces

@@ -1,6 +1,6 @@
 //! From contacts to a complementarity problem, and from its solution back to forces and accelerations.
 //!
-//! The only place that knows both geometry and the solver. With generalised velocities (3 a block), mass matrix
+//! The only place that knows both geometry and the solver. With generalised velocities (3 a block, in space 6), mass matrix
 //! `M`, applied wrench `F` and the generators' wrench columns `G`, forces are `G f`, `f >= 0`, accelerations are
 //! `M^-1 (F + G f)`, and
 //!
@@ -12,9 +12,14 @@
 
 mod assembly;
 mod block_set;
+mod cones;
 mod generator;
+mod part;
 
-pub use assembly::{Assembly, ContactForce};
+pub use assembly::{Acceleration, Assembly, BlockRows, ContactForce};
 pub use block_set::BlockSet;
-pub(crate) use generator::cone_edges;
+pub(crate) use cones::cone_edges;
+pub use cones::{Bound, Cones, FACETS};
 pub use generator::{Generator, Wrench};
+pub(crate) use part::length;
+pub use part::{Assemble, Components, Part};

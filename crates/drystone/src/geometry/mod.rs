@@ -2,7 +2,9 @@
 
 mod polygon;
 mod pose;
+mod shape;
 
 pub use parry2d_f64::math::Vector;
 pub use polygon::{Polygon, ShapeFault};
 pub use pose::Pose;
+pub use shape::Shape;

@@ -1,6 +1,6 @@
 //! Convex polygons, checked once, in the frame of their own centroid.
 
-use super::Vector;
+use super::{Pose, Shape, Vector};
 use parry2d_f64::mass_properties::{MassProperties, details};
 use thiserror::Error;
 
@@ -115,14 +115,25 @@ impl Polygon {
     pub fn second_moment(&self) -> f64 {
         self.second_moment
     }
+}
 
-    /// Distance of the furthest corner from the centroid, metres.
-    pub fn radius(&self) -> f64 {
+impl Shape for Polygon {
+    type Vector = [f64; 2];
+    type Pose = Pose;
+
+    fn measure(&self) -> f64 {
+        self.area
+    }
+
+    fn moments(&self) -> Vec<f64> {
+        vec![self.second_moment]
+    }
+
+    fn radius(&self) -> f64 {
         self.vertices.iter().fold(0.0, |radius, v| v.length().max(radius))
     }
 
-    /// The least distance between two parallel lines that hold the polygon between them, metres.
-    pub fn width(&self) -> f64 {
+    fn width(&self) -> f64 {
         self.width
     }
 }

@@ -47,7 +47,7 @@ pub fn to_json(scene: &Scene) -> String {
 fn body_line(body: &Body) -> String {
     let shape = match body.box_size {
         Some(size) => ShapeRecord::Box { size },
-        None => ShapeRecord::Polygon { vertices: body.polygon.vertices().iter().map(|v| v.to_array()).collect() },
+        None => ShapeRecord::Polygon { vertices: body.shape.vertices().iter().map(|v| v.to_array()).collect() },
     };
     let record = BodyRecord {
         name: &body.name,

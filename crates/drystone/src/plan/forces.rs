@@ -27,11 +27,11 @@ pub fn forces_along(
     wants: impl Fn(usize) -> bool,
     mut visit: impl FnMut(StructureForces) -> bool,
 ) -> Result<(), PlanError> {
-    let mut equilibrium = assembly.equilibrium();
+    let (mut equilibrium, rows) = (assembly.equilibrium(), assembly.equilibrium_rows());
     let mut present = BlockSet::empty(assembly.blocks());
     for (below, &block) in order.iter().enumerate() {
         present.insert(block);
-        equilibrium.add_rows(&Assembly::equilibrium_rows(block));
+        equilibrium.add_rows(rows.of(block));
         let blocks = below + 1;
         if !wants(blocks) {
             equilibrium.decide();
@@ -40,7 +40,7 @@ pub fn forces_along(
         let forces = match equilibrium.solve() {
             Membership::Inside => {
                 let every = assembly.contact_forces(&assembly.rows(&present), |j| assembly.magnitude(&equilibrium, j));
-                Some(every.into_iter().filter(|force| force.force != [0.0; 2]).collect())
+                Some(every.into_iter().filter(|force| force.force != [0.0; 3]).collect())
             }
             Membership::Outside => None,
             trouble => {

@@ -5,7 +5,6 @@ use crate::{
     check::check_blocks,
     error::SceneError,
     formulate::{Assembly, BlockSet},
-    scene::Scene,
 };
 
 /// One sub-assembly of the graph.
@@ -23,9 +22,8 @@ const MOST_BLOCKS: usize = 12;
 /// Every sub-assembly of a scene with the verdict on it, by size.
 ///
 /// # Errors
-/// [`SceneError::BadParameter`] for more than 12 movable blocks; [`SceneError::Overlap`].
-pub fn disassembly_graph(scene: &Scene) -> Result<Vec<GraphNode>, PlanError> {
-    let assembly = Assembly::new(scene)?;
+/// [`SceneError::BadParameter`] for more than 12 movable blocks.
+pub fn disassembly_graph(assembly: &Assembly) -> Result<Vec<GraphNode>, PlanError> {
     let blocks = assembly.blocks();
     if blocks > MOST_BLOCKS {
         return Err(SceneError::BadParameter {
@@ -42,7 +40,7 @@ pub fn disassembly_graph(scene: &Scene) -> Result<Vec<GraphNode>, PlanError> {
             (0..blocks).filter(|block| mask >> block & 1 == 1).for_each(|block| set.insert(block));
             GraphNode {
                 bodies: set.iter().map(|block| assembly.body_index(block)).collect(),
-                stands: check_blocks(&assembly, &set).stable,
+                stands: check_blocks(assembly, &set).stable,
             }
         })
         .collect();

@@ -30,6 +30,6 @@ pub use forces::{StructureForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
 pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
-pub use planning::{plan, plan_with};
+pub use planning::{plan, plan_assembly, plan_with};
 pub use replay::{Recorder, Replay, Step, replay};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

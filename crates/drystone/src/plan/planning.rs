@@ -10,7 +10,10 @@ use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTes
 use super::touching::Touching;
 use super::visited::Visited;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
-use crate::{formulate::Assembly, scene::Scene};
+use crate::{
+    formulate::{Assemble, Assembly},
+    scene::SceneOf,
+};
 use std::{
     sync::atomic::AtomicBool,
     time::{Duration, Instant},
@@ -20,19 +23,38 @@ use std::{
 ///
 /// # Errors
 /// [`PlanError`] for an invalid scene or a test without an answer.
-pub fn plan(scene: &Scene, test: Test, limits: Limits, monitor: &mut dyn Monitor) -> Result<Plan, PlanError> {
+pub fn plan<S: Assemble>(
+    scene: &SceneOf<S>,
+    test: Test,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
     let start = Instant::now();
-    let assembly = Assembly::new(scene)?;
+    let mut plan = plan_assembly(&Assembly::new(scene)?, test, limits, monitor)?;
+    plan.total = start.elapsed();
+    Ok(plan)
+}
+
+/// [`plan`] of an assembly whose contacts are known.
+///
+/// # Errors
+/// [`PlanError`] for a test without an answer.
+pub fn plan_assembly(
+    assembly: &Assembly,
+    test: Test,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
     let setup = Instant::now();
     let mut test: Box<dyn StabilityTest + '_> = match test {
-        Test::Lcp => from_scratch(&assembly, limits.threads()),
-        Test::Reuse => Box::new(Reuse::new(&assembly)),
-        Test::ReuseDantzig => Box::new(ReuseDantzig::new(&assembly)),
+        Test::Lcp => from_scratch(assembly, limits.threads()),
+        Test::Reuse => Box::new(Reuse::new(assembly)),
+        Test::ReuseDantzig => Box::new(ReuseDantzig::new(assembly)),
     };
     let setup = setup.elapsed();
-    let mut plan = plan_with(&assembly, test.as_mut(), limits, monitor)?;
+    let mut plan = plan_with(assembly, test.as_mut(), limits, monitor)?;
     plan.setup = setup;
-    plan.total = start.elapsed();
+    plan.total += setup;
     Ok(plan)
 }
 

@@ -4,7 +4,7 @@ use super::collapse::Collapse;
 use crate::{
     check::{moving_blocks, stands_under},
     error::SceneError,
-    formulate::{Assembly, BlockSet},
+    formulate::{Assembly, BlockRows, BlockSet, Components},
 };
 use drystone_lcp::{
     LcpError, Settings, Snapshot, Solver, Status,
@@ -113,9 +113,9 @@ pub(super) fn solve_by(
 
 /// The accelerations v of a fall are a collapse motion: `G' v = w >= 0` and `F' v = v' M v > 0`.
 fn collapse_of(assembly: &Assembly, solver: &Solver, blocks: &BlockSet) -> Collapse {
-    let work = |(block, acceleration): (usize, [f64; 3])| {
-        let load = assembly.applied(block);
-        (block, (0..3).map(|k| load[k] * acceleration[k]).sum())
+    let work = |(block, acceleration): (usize, Components)| {
+        let components = assembly.components().iter().zip(assembly.applied(block));
+        (block, components.map(|(&k, load)| load * acceleration[k]).sum())
     };
     Collapse::new(moving_blocks(assembly, blocks, |j| solver.z(j)).map(work).collect())
 }
@@ -161,8 +161,10 @@ impl StabilityTest for FromScratch<'_> {
 #[derive(Debug)]
 pub struct Reuse {
     solver: ConeSolver,
-    /// Applied wrench of every block.
-    loads: Vec<[f64; 3]>,
+    rows: BlockRows,
+    /// Applied wrenches, row by row.
+    loads: Vec<f64>,
+    blocks: usize,
     /// States of the current sub-assembly and its ancestors, the current one last.
     path: Vec<Mark>,
     at_current: bool,
@@ -172,8 +174,9 @@ impl Reuse {
     /// Takes the generators of the complete assembly; the current sub-assembly is empty.
     pub fn new(assembly: &Assembly) -> Self {
         let mut solver = assembly.equilibrium();
-        let loads = (0..assembly.blocks()).map(|block| assembly.applied(block)).collect();
-        Self { loads, path: vec![solver.mark()], solver, at_current: true }
+        let blocks = assembly.blocks();
+        let loads = (0..blocks).flat_map(|block| assembly.applied(block)).copied().collect();
+        Self { rows: assembly.equilibrium_rows(), loads, blocks, path: vec![solver.mark()], solver, at_current: true }
     }
 
     /// The solver, for its counts.
@@ -191,9 +194,9 @@ impl StabilityTest for Reuse {
         }
         self.at_current = false;
         let before = self.solver.counts().pivots;
-        self.solver.add_rows(&Assembly::equilibrium_rows(added));
+        self.solver.add_rows(self.rows.of(added));
         // The last test before the structure is complete brings all forces up to date, and checks them.
-        let last = blocks.len() + 1 == self.loads.len();
+        let last = blocks.len() + 1 == self.blocks;
         let stands = match if last { self.solver.solve() } else { self.solver.decide() } {
             Membership::Inside => true,
             Membership::Outside => false,
@@ -213,8 +216,8 @@ impl StabilityTest for Reuse {
     fn collapse(&self) -> Option<Collapse> {
         let mut moving: Vec<(usize, f64)> = Vec::new();
         for (row, y) in self.solver.certificate() {
-            let (block, axis) = (row / 3, row % 3);
-            let work = -y * self.loads[block][axis];
+            let block = self.rows.block(row);
+            let work = -y * self.loads[row];
             match moving.last_mut().filter(|last| last.0 == block) {
                 Some(last) => last.1 += work,
                 None => moving.push((block, work)),

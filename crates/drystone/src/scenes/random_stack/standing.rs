@@ -4,8 +4,15 @@
 //! next is tried on it and taken off again. Only contacts of new blocks are looked for.
 
 use super::{Placed, Rule, scene_of};
-use crate::{error::SceneError, formulate::Assembly, structure::put_up};
+use crate::{
+    error::SceneError,
+    formulate::{Assembly, BlockRows, Components},
+    structure::put_up,
+};
 use drystone_lcp::cone::{Columns, ConeSolver, Mark, Membership};
+
+/// Components of a wrench in the plane.
+const PLANE: [usize; 3] = [0, 1, 5];
 
 /// The equilibrium problem of the blocks kept so far, and of those that may come next.
 pub(super) struct Standing {
@@ -20,10 +27,10 @@ pub(super) struct Standing {
 #[derive(Clone)]
 struct Piece {
     /// Generators as wrenches on blocks by the order in which they were kept; None for the block itself.
-    generators: Vec<Vec<(Option<usize>, [f64; 3])>>,
-    load: [f64; 3],
+    generators: Vec<Vec<(Option<usize>, Components)>>,
+    load: Vec<f64>,
     /// In which its imbalance is measured.
-    unit: [f64; 3],
+    unit: Vec<f64>,
 }
 
 /// A solver with room for some more blocks, after the stack was put up in it.
@@ -31,8 +38,9 @@ struct Trial {
     bare: ConeSolver,
     solver: ConeSolver,
     standing: Mark,
-    /// Rows of each block that may come next.
-    rows: Vec<[usize; 3]>,
+    rows: BlockRows,
+    /// Place among the blocks of each block that may come next.
+    places: Vec<usize>,
 }
 
 impl Standing {
@@ -53,20 +61,21 @@ impl Standing {
         };
         Ok(Some(Piece {
             generators: assembly.generators_on(own).iter().map(wrenches).collect(),
-            load: assembly.applied(own),
-            unit: assembly.balance_unit(own),
+            load: assembly.applied(own).to_vec(),
+            unit: assembly.balance_unit(own).collect(),
         }))
     }
 
     /// The problem of the blocks kept and all that may come next, with the stack put up.
     fn put_up(&self) -> Trial {
         let pieces: Vec<&Piece> = self.kept.iter().chain(self.next.iter().flatten()).collect();
+        let rows = BlockRows::of_components(&PLANE, pieces.len());
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for (own, piece) in pieces.iter().enumerate() {
             for generator in &piece.generators {
                 for &(block, value) in generator {
-                    let rows = Assembly::equilibrium_rows(block.unwrap_or(own)).into_iter();
-                    for (row, value) in rows.zip(value).filter(|&(_, value)| value != 0.0) {
+                    let entries = rows.of(block.unwrap_or(own)).iter().zip(PLANE.map(|k| value[k]));
+                    for (&row, value) in entries.filter(|&(_, value)| value != 0.0) {
                         indices.push(row);
                         data.push(value);
                     }
@@ -74,20 +83,20 @@ impl Standing {
                 indptr.push(indices.len());
             }
         }
-        let balance: Vec<f64> = pieces.iter().flat_map(|piece| piece.load.map(|load| -load)).collect();
-        let units: Vec<f64> = pieces.iter().flat_map(|piece| piece.unit).collect();
-        let columns = Columns::new(3 * pieces.len(), &indptr, &indices, &data);
+        let balance: Vec<f64> = pieces.iter().flat_map(|piece| piece.load.iter().map(|load| -load)).collect();
+        let units: Vec<f64> = pieces.iter().flat_map(|piece| &piece.unit).copied().collect();
+        let columns = Columns::new(PLANE.len() * pieces.len(), &indptr, &indices, &data);
         let bare = columns.and_then(|columns| ConeSolver::new(columns, &balance, &units));
         let bare = bare.expect("blocks of finite size");
         let mut solver = bare.clone();
-        put_up(&mut solver, 0..self.kept.len(), |_| true);
+        put_up(&mut solver, &rows, 0..self.kept.len(), |_| true);
         solver.solve();
         let mut own = self.kept.len()..;
-        let rows = self.next.iter().map(|piece| match piece {
-            Some(_) => Assembly::equilibrium_rows(own.next().unwrap_or_default()),
-            None => [usize::MAX; 3],
+        let places = self.next.iter().map(|piece| match piece {
+            Some(_) => own.next().unwrap_or_default(),
+            None => usize::MAX,
         });
-        Trial { rows: rows.collect(), standing: solver.mark(), solver, bare }
+        Trial { places: places.collect(), rows, standing: solver.mark(), solver, bare }
     }
 }
 
@@ -104,7 +113,7 @@ impl Rule for Standing {
 
     fn stands(&mut self, _placed: &[Placed], _block: &Placed, index: usize) -> Result<bool, SceneError> {
         let Some(trial) = self.trial.as_mut().filter(|_| self.next[index].is_some()) else { return Ok(false) };
-        trial.solver.add_rows(&trial.rows[index]);
+        trial.solver.add_rows(trial.rows.of(trial.places[index]));
         let found = trial.solver.solve();
         trial.solver.roll_back(trial.standing);
         Ok(found == Membership::Inside)
@@ -113,9 +122,9 @@ impl Rule for Standing {
     fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed, index: usize) -> Result<bool, SceneError> {
         let Some(trial) = self.trial.as_ref().filter(|_| self.next[index].is_some()) else { return Ok(false) };
         let mut solver = trial.bare.clone();
-        put_up(&mut solver, (0..placed.len()).filter(|&k| placed[k].is_lower_than(block)), |_| true);
+        put_up(&mut solver, &trial.rows, (0..placed.len()).filter(|&k| placed[k].is_lower_than(block)), |_| true);
         solver.decide();
-        solver.add_rows(&trial.rows[index]);
+        solver.add_rows(trial.rows.of(trial.places[index]));
         Ok(solver.solve() == Membership::Inside)
     }
 

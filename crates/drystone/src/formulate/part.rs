@@ -1,0 +1,117 @@
+//! What mechanics needs of a body, whatever the dimension.
+
+use crate::{
+    contact::{ContactSet, find_contacts},
+    error::SceneError,
+    geometry::{Polygon, Shape},
+    scene::{Body, Scene, SceneOf},
+};
+
+/// Components of a wrench or a motion on one block: three of force or of translation in world axes, then three of moment or
+/// of turning about its principal axes, so that `M^-1` is diagonal. In the plane only x, y and the turn are in use.
+pub type Components = [f64; 6];
+
+/// A body without its shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Unique in the scene.
+    pub name: String,
+    /// Whether it is held in place.
+    pub fixed: bool,
+    /// Kilograms.
+    pub mass: f64,
+    /// Principal moments of inertia about the centroid, kg m^2.
+    pub inertia: [f64; 3],
+    /// Unit vectors of the principal axes, in the world.
+    pub axes: [[f64; 3]; 3],
+    /// The centroid in the world, metres.
+    pub center: [f64; 3],
+    /// Distance of the furthest corner from the centroid, metres.
+    pub radius: f64,
+}
+
+/// Shapes of which assemblies are made.
+pub trait Assemble: Shape {
+    /// Which of the six [`Components`] a block has.
+    const COMPONENTS: &'static [usize];
+
+    /// The contacts of a scene of such shapes.
+    ///
+    /// # Errors
+    /// [`SceneError::Overlap`].
+    fn contacts(scene: &SceneOf<Self>) -> Result<ContactSet, SceneError>;
+
+    /// A body's mass and place.
+    fn part(body: &Body<Self>) -> Part;
+
+    /// A vector of the world, z being 0 in the plane.
+    fn in_space(vector: Self::Vector) -> [f64; 3];
+}
+
+const WORLD_AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Assemble for Polygon {
+    const COMPONENTS: &'static [usize] = &[0, 1, 5];
+
+    fn contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
+        find_contacts(scene)
+    }
+
+    fn part(body: &Body) -> Part {
+        Part {
+            name: body.name.clone(),
+            fixed: body.fixed,
+            mass: body.mass(),
+            inertia: [body.inertia(); 3],
+            axes: WORLD_AXES,
+            center: Self::in_space(body.pose.position),
+            radius: body.shape.radius(),
+        }
+    }
+
+    fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
+        [x, y, 0.0]
+    }
+}
+
+impl Part {
+    /// Force and moment about the centroid of a force at a point of the world.
+    pub fn wrench(&self, force: [f64; 3], point: [f64; 3]) -> Components {
+        let moment = self.along_axes(cross(minus(point, self.center), force));
+        [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
+    }
+
+    /// A vector of the world along the principal axes.
+    pub fn along_axes(&self, vector: [f64; 3]) -> [f64; 3] {
+        self.axes.map(|axis| dot(axis, vector))
+    }
+
+    /// The vector of the world with these components along the principal axes.
+    pub fn in_world(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|k| x * self.axes[0][k] + y * self.axes[1][k] + z * self.axes[2][k])
+    }
+
+    /// Diagonal of `M^-1`: 1/kg thrice, 1/(kg m^2) thrice.
+    pub fn inverse_mass(&self) -> Components {
+        let [x, y, z] = self.inertia.map(f64::recip);
+        let per_mass = self.mass.recip();
+        [per_mass, per_mass, per_mass, x, y, z]
+    }
+}
+
+pub(super) fn dot([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> f64 {
+    ax * bx + ay * by + az * bz
+}
+
+pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(super) fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
+    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
+}
+
+/// Length of a vector. In the plane, where z is 0, that of the two others to the bit.
+pub(crate) fn length([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).hypot(z)
+}

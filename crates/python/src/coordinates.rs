@@ -1,0 +1,23 @@
+//! Points and vectors as tuples.
+
+use pyo3::prelude::*;
+
+/// Two numbers in the plane, three in space.
+#[derive(Clone, Copy, IntoPyObject)]
+pub enum Coordinates {
+    Plane((f64, f64)),
+    Space((f64, f64, f64)),
+}
+
+impl Coordinates {
+    /// Without z in the plane.
+    pub fn of([x, y, z]: [f64; 3], in_plane: bool) -> Self {
+        if in_plane { Self::Plane((x, y)) } else { Self::Space((x, y, z)) }
+    }
+}
+
+impl From<[f64; 2]> for Coordinates {
+    fn from([x, y]: [f64; 2]) -> Self {
+        Self::Plane((x, y))
+    }
+}
