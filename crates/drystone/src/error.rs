@@ -1,6 +1,6 @@
 //! What can be wrong with a scene, each as a typed error that names the block and the fix.
 
-use crate::geometry::ShapeFault;
+use crate::geometry::{ShapeFault, SolidFault};
 use thiserror::Error;
 
 /// A scene that cannot be built, read or put into contact.
@@ -38,6 +38,20 @@ pub enum SceneError {
         body: String,
         /// What is wrong with the polygon, and the fix.
         fault: ShapeFault,
+    },
+    /// Corners that do not make a solid.
+    #[error("block \"{body}\": {fault}")]
+    BadSolid {
+        /// The block's name.
+        body: String,
+        /// What is wrong with it, and the fix.
+        fault: SolidFault,
+    },
+    /// An orientation that is no rotation.
+    #[error("block \"{body}\": the orientation is zero: give a quaternion (w, x, y, z), for instance (1, 0, 0, 0)")]
+    ZeroOrientation {
+        /// The block's name.
+        body: String,
     },
     /// A friction cone with less than three edges.
     #[error("facets is {facets}: a friction cone in space has at least 3")]

@@ -1,6 +1,7 @@
 //! Broad phase: pairs of blocks whose bounding boxes come within the contact tolerance.
 
 use super::tolerance_of;
+use crate::geometry::Vector3;
 use crate::scene::{Body, Scene};
 use parry2d_f64::bounding_volume::{Aabb, BoundingVolume};
 use parry2d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -18,15 +19,39 @@ pub(super) fn candidate_pairs(scene: &Scene) -> Vec<[usize; 2]> {
 pub(super) fn pairs_within(bodies: &[Body], reach: impl Fn(usize) -> f64) -> Vec<[usize; 2]> {
     let boxes: Vec<Aabb> = bodies.iter().enumerate().map(|(i, body)| bounding_box(body).loosened(reach(i))).collect();
     let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+    pairs(bodies.len(), |i| bodies[i].fixed, |i| tree.intersect_aabb(&boxes[i]))
+}
+
+/// The same for blocks in space; `corners(i)` are the lower and the upper corner of block i's box.
+pub(super) fn pairs_in_space(
+    count: usize,
+    fixed: impl Fn(usize) -> bool,
+    corners: impl Fn(usize) -> [Vector3; 2],
+    reach: impl Fn(usize) -> f64,
+) -> Vec<[usize; 2]> {
+    use parry3d_f64::bounding_volume::{Aabb, BoundingVolume};
+    use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+    let bounds = |i: usize| {
+        let [low, high] = corners(i);
+        Aabb::new(low, high).loosened(reach(i))
+    };
+    let boxes: Vec<Aabb> = (0..count).map(bounds).collect();
+    let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
+    pairs(count, fixed, |i| tree.intersect_aabb(&boxes[i]))
+}
+
+/// The pairs of blocks of which the one's box is `near` the other's.
+fn pairs<N: Iterator<Item = u32>>(
+    count: usize,
+    fixed: impl Fn(usize) -> bool,
+    near: impl Fn(usize) -> N,
+) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
-    for (i, own) in boxes.iter().enumerate() {
-        if bodies[i].fixed {
-            continue;
-        }
-        for j in tree.intersect_aabb(own).map(|leaf| leaf as usize) {
+    for i in (0..count).filter(|&i| !fixed(i)) {
+        for j in near(i).map(|leaf| leaf as usize) {
             // A movable block meets a fixed one once, from its own side; two movable blocks from
             // the lower's side.
-            if j != i && (bodies[j].fixed || i < j) {
+            if j != i && (fixed(j) || i < j) {
                 pairs.push([i.min(j), i.max(j)]);
             }
         }

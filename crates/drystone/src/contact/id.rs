@@ -40,6 +40,44 @@ pub enum Feature {
         /// Corner of b.
         b: usize,
     },
+    /// What meets in space, on a piece of each block.
+    Solids {
+        /// Of a.
+        a: SolidFeature,
+        /// Of b.
+        b: SolidFeature,
+    },
+}
+
+/// A corner, an edge or a face of one convex piece of a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct SolidFeature {
+    /// Which piece.
+    pub piece: usize,
+    /// What on it.
+    pub part: SolidPart,
+}
+
+/// See [`SolidFeature`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum SolidPart {
+    /// By its number.
+    Corner(usize),
+    /// By the numbers of its ends, the lower first.
+    Edge([usize; 2]),
+    /// By its number.
+    Face(usize),
+}
+
+impl fmt::Display for SolidFeature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.part {
+            SolidPart::Corner(k) => write!(f, "corner {k}")?,
+            SolidPart::Edge([i, j]) => write!(f, "edge {i}-{j}")?,
+            SolidPart::Face(k) => write!(f, "face {k}")?,
+        }
+        if self.piece == 0 { Ok(()) } else { write!(f, " of piece {}", self.piece) }
+    }
 }
 
 impl fmt::Display for Feature {
@@ -48,6 +86,7 @@ impl fmt::Display for Feature {
             Self::Faces { a, b, end } => write!(f, "a:face {a} / b:face {b} / end {end}"),
             Self::CornerOfA { a, b } => write!(f, "a:corner {a} / b:face {b}"),
             Self::CornerOfB { a, b } => write!(f, "a:face {a} / b:corner {b}"),
+            Self::Solids { a, b } => write!(f, "a:{a} / b:{b}"),
         }
     }
 }

@@ -14,8 +14,13 @@ pub mod approach;
 mod broad_phase;
 mod id;
 mod narrow_phase;
+mod separation;
+mod shared_face;
+mod solids;
 
-pub use id::{ContactId, Feature};
+pub use id::{ContactId, Feature, SolidFeature, SolidPart};
+pub use solids::find_solid_contacts;
+pub(crate) use solids::overlapping_pieces;
 
 use crate::error::SceneError;
 use crate::geometry::{Shape, Vector};

@@ -1,9 +1,9 @@
 //! What mechanics needs of a body, whatever the dimension.
 
 use crate::{
-    contact::{ContactSet, find_contacts},
+    contact::{ContactSet, find_contacts, find_solid_contacts},
     error::SceneError,
-    geometry::{Polygon, Shape},
+    geometry::{Polygon, Shape, Solid},
     scene::{Body, Scene, SceneOf},
 };
 
@@ -71,6 +71,31 @@ impl Assemble for Polygon {
 
     fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
         [x, y, 0.0]
+    }
+}
+
+impl Assemble for Solid {
+    const COMPONENTS: &'static [usize] = &[0, 1, 2, 3, 4, 5];
+
+    fn contacts(scene: &SceneOf<Self>) -> Result<ContactSet, SceneError> {
+        find_solid_contacts(scene)
+    }
+
+    fn part(body: &Body<Self>) -> Part {
+        let moments = body.shape.moments();
+        Part {
+            name: body.name.clone(),
+            fixed: body.fixed,
+            mass: body.mass(),
+            inertia: [0, 1, 2].map(|k| body.density * moments[k]),
+            axes: body.shape.principal_axes().map(|axis| body.pose.rotate(axis).to_array()),
+            center: body.pose.position,
+            radius: body.shape.radius(),
+        }
+    }
+
+    fn in_space(vector: [f64; 3]) -> [f64; 3] {
+        vector
     }
 }
 

@@ -1,10 +1,18 @@
-//! Shapes and where they stand. No physics beyond area and its moments, no names of blocks.
+//! Shapes and where they stand. No physics beyond measure and moments, no names of blocks.
 
 mod polygon;
+mod polyhedron;
 mod pose;
+mod pose_in_space;
 mod shape;
+mod solid;
 
 pub use parry2d_f64::math::Vector;
+pub use parry3d_f64::math::Vector as Vector3;
 pub use polygon::{Polygon, ShapeFault};
+pub(crate) use polyhedron::convex_outline;
+pub use polyhedron::{Edge, MOST_POINTS, Polyhedron, SolidFault};
 pub use pose::Pose;
+pub use pose_in_space::PoseInSpace;
 pub use shape::Shape;
+pub use solid::Solid;

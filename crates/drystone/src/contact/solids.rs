@@ -1,0 +1,265 @@
+//! Contacts of solids: the whole polygon of a shared face, and edges that cross.
+
+use super::{
+    Contact, ContactId, ContactSet, Feature,
+    broad_phase::pairs_in_space,
+    id::{SolidFeature, SolidPart},
+    pair_tolerance,
+    separation::{Between, Separation, along_edges, along_faces, direction},
+    shared_face::{SharedCorner, shared_corners},
+    tolerance_of,
+};
+use crate::{
+    error::SceneError,
+    geometry::{Edge, Polyhedron, Solid, Vector3, convex_outline},
+    scene::{Body, SceneOf},
+};
+
+/// A body's pieces turned into world axes, but still about its centroid, so that nothing is lost far from the world's
+/// origin.
+struct Placed {
+    pieces: Vec<Polyhedron>,
+}
+
+impl Placed {
+    fn of(body: &Body<Solid>) -> Self {
+        let [x, y, z] = body.pose.axes();
+        let rotate = |v: Vector3| v.x * x + v.y * y + v.z * z;
+        Self { pieces: body.shape.pieces().iter().map(|piece| piece.turned(rotate)).collect() }
+    }
+}
+
+/// How two convex pieces touch.
+enum Touch {
+    Apart,
+    /// Only at corners and along edges: such a touch has no normal of its own.
+    AtBorders,
+    Overlap {
+        depth: f64,
+    },
+    At(Vec<TouchPoint>),
+}
+
+/// A contact point relative to the first body's centroid.
+#[derive(Debug, Clone, Copy)]
+struct TouchPoint {
+    features: [SolidFeature; 2],
+    point: Vector3,
+    /// Unit vector from the first body into the second.
+    normal: Vector3,
+    gap: f64,
+}
+
+/// Finds all contacts between the blocks of a scene in space; see [`super::find_contacts`].
+///
+/// # Errors
+/// [`SceneError::Overlap`].
+pub fn find_solid_contacts(scene: &SceneOf<Solid>) -> Result<ContactSet, SceneError> {
+    let bodies = scene.bodies();
+    let boxes = |i: usize| bounds(bodies[i].shape.vertices().map(|v| bodies[i].pose.transform(v)));
+    let pairs = pairs_in_space(bodies.len(), |i| bodies[i].fixed, boxes, |i| tolerance_of(scene, &bodies[i]));
+    let placed: Vec<Placed> = bodies.iter().map(Placed::of).collect();
+    let mut found = ContactSet { candidate_pairs: pairs.len(), ..ContactSet::default() };
+    let mut deepest: Option<([usize; 2], f64)> = None;
+    for &[a, b] in &pairs {
+        let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
+        let origin = Vector3::from_array(bodies[a].pose.position);
+        let offset = Vector3::from_array(bodies[b].pose.position) - origin;
+        let touch = touch_of_bodies(&placed[a], &placed[b], offset, tolerance);
+        match touch {
+            Touch::Apart => {}
+            Touch::AtBorders => found.corner_touches.push([a, b]),
+            Touch::Overlap { depth } => {
+                if deepest.is_none_or(|(_, most)| depth > most) {
+                    deepest = Some(([a, b], depth));
+                }
+            }
+            Touch::At(points) => found.contacts.extend(points.into_iter().map(|p| Contact {
+                id: ContactId { bodies: [a, b], feature: Feature::Solids { a: p.features[0], b: p.features[1] } },
+                bodies: [a, b],
+                point: (origin + p.point).to_array(),
+                normal: p.normal.to_array(),
+                gap: p.gap,
+                friction: scene.pair_friction(a, b),
+            })),
+        }
+    }
+    match deepest {
+        None => Ok(found),
+        Some(([a, b], depth)) => Err(SceneError::Overlap {
+            a: bodies[a].name.clone(),
+            b: bodies[b].name.clone(),
+            depth,
+            tolerance: pair_tolerance(scene, &bodies[a], &bodies[b]),
+        }),
+    }
+}
+
+/// The first two pieces of a solid that overlap by more than the tolerance, and by how much.
+pub(crate) fn overlapping_pieces(solid: &Solid, tolerance: f64) -> Option<([usize; 2], f64)> {
+    let pieces = solid.pieces();
+    let pairs = (0..pieces.len()).flat_map(|a| (a + 1..pieces.len()).map(move |b| [a, b]));
+    pairs.into_iter().find_map(|[a, b]| match touch([&pieces[a], &pieces[b]], [a, b], Vector3::ZERO, tolerance) {
+        Touch::Overlap { depth } => Some(([a, b], depth)),
+        _ => None,
+    })
+}
+
+fn bounds(points: impl Iterator<Item = Vector3>) -> [Vector3; 2] {
+    let nothing = [Vector3::INFINITY, Vector3::NEG_INFINITY];
+    points.fold(nothing, |[low, high], v| [low.min(v), high.max(v)])
+}
+
+/// All pieces of one body against all of another.
+fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> Touch {
+    if let ([one], [other]) = (&a.pieces[..], &b.pieces[..]) {
+        return touch([one, other], [0, 0], offset, tolerance);
+    }
+    let boxes = |placed: &Placed, by: Vector3| -> Vec<[Vector3; 2]> {
+        placed.pieces.iter().map(|piece| bounds(piece.vertices().iter().map(|v| *v + by))).collect()
+    };
+    let (boxes_a, boxes_b) = (boxes(a, Vector3::ZERO), boxes(b, offset));
+    let apart = |[low, high]: [Vector3; 2], [other_low, other_high]: [Vector3; 2]| {
+        (other_low - high).max(low - other_high).max_element() > tolerance
+    };
+    let (mut points, mut at_borders, mut deepest) = (Vec::new(), false, 0.0_f64);
+    for (i, piece) in a.pieces.iter().enumerate() {
+        for (j, other) in b.pieces.iter().enumerate().filter(|(j, _)| !apart(boxes_a[i], boxes_b[*j])) {
+            match touch([piece, other], [i, j], offset, tolerance) {
+                Touch::Apart => {}
+                Touch::AtBorders => at_borders = true,
+                Touch::Overlap { depth } => deepest = deepest.max(depth),
+                Touch::At(found) => points.extend(found),
+            }
+        }
+    }
+    match () {
+        () if deepest > 0.0 => Touch::Overlap { depth: deepest },
+        () if !points.is_empty() => Touch::At(without_inner(points, tolerance)),
+        () if at_borders => Touch::AtBorders,
+        () => Touch::Apart,
+    }
+}
+
+/// How two convex pieces touch; the second stands at `offset` from the first.
+fn touch(pieces: [&Polyhedron; 2], numbers: [usize; 2], offset: Vector3, tolerance: f64) -> Touch {
+    let [a, b] = pieces;
+    let faces = along_faces(a, b, offset);
+    if faces.distance > tolerance {
+        return Touch::Apart;
+    }
+    let edges = along_edges(a, b, offset);
+    let greatest = edges.filter(|edges| edges.distance > faces.distance).unwrap_or(faces);
+    if greatest.distance > tolerance {
+        return Touch::Apart;
+    }
+    if greatest.distance < -tolerance {
+        return Touch::Overlap { depth: -greatest.distance };
+    }
+    // Where a face parts them within tolerance it does so for all its points; edges that part them as well are its border.
+    let points = if faces.distance >= -tolerance {
+        at_face(pieces, numbers, offset, faces, tolerance)
+    } else {
+        at_edges(pieces, numbers, offset, greatest, tolerance).into_iter().collect()
+    };
+    if points.is_empty() { Touch::AtBorders } else { Touch::At(points) }
+}
+
+fn at_face(
+    [a, b]: [&Polyhedron; 2],
+    numbers: [usize; 2],
+    offset: Vector3,
+    separation: Separation,
+    tolerance: f64,
+) -> Vec<TouchPoint> {
+    let named = |side: usize, part: SolidPart| SolidFeature { piece: numbers[side], part };
+    let normal = separation.normal;
+    match separation.between {
+        Between::FaceOfA(face) => {
+            let at = |c: SharedCorner| TouchPoint {
+                features: [named(0, c.reference), named(1, c.other)],
+                point: c.point + 0.5 * c.gap * normal,
+                normal,
+                gap: c.gap,
+            };
+            shared_corners(a, face, b, offset, tolerance).into_iter().map(at).collect()
+        }
+        Between::FaceOfB(face) => {
+            let at = |c: SharedCorner| TouchPoint {
+                features: [named(0, c.other), named(1, c.reference)],
+                point: c.point + offset - 0.5 * c.gap * normal,
+                normal,
+                gap: c.gap,
+            };
+            shared_corners(b, face, a, -offset, tolerance).into_iter().map(at).collect()
+        }
+        Between::Edges(..) => Vec::new(),
+    }
+}
+
+/// The point where two edges cross, if it lies within both by more than the tolerance.
+fn at_edges(
+    [a, b]: [&Polyhedron; 2],
+    numbers: [usize; 2],
+    offset: Vector3,
+    separation: Separation,
+    tolerance: f64,
+) -> Option<TouchPoint> {
+    let Between::Edges(edge_a, edge_b) = separation.between else { return None };
+    let (from_a, from_b) = (a.vertices()[edge_a.ends[0]], b.vertices()[edge_b.ends[0]] + offset);
+    let (along_a, along_b) = (direction(a, &edge_a), direction(b, &edge_b));
+    // Closest points of two lines.
+    let (between, cosine) = (from_b - from_a, along_a.dot(along_b));
+    let square = 1.0 - cosine * cosine;
+    let s = (along_a.dot(between) - cosine * along_b.dot(between)) / square;
+    let t = (cosine * along_a.dot(between) - along_b.dot(between)) / square;
+    let length = |of: &Polyhedron, edge: &Edge| of.vertices()[edge.ends[0]].distance(of.vertices()[edge.ends[1]]);
+    let within = |x: f64, length: f64| x > tolerance && x < length - tolerance;
+    let inside = within(s, length(a, &edge_a)) && within(t, length(b, &edge_b));
+    let named = |side: usize, [i, j]: [usize; 2]| SolidFeature {
+        piece: numbers[side],
+        part: SolidPart::Edge([i.min(j), i.max(j)]),
+    };
+    inside.then(|| TouchPoint {
+        features: [named(0, edge_a.ends), named(1, edge_b.ends)],
+        point: 0.5 * (from_a + s * along_a + from_b + t * along_b),
+        normal: separation.normal,
+        gap: separation.distance,
+    })
+}
+
+/// Normals that differ by less than this, per axis, are those of one plane.
+const SAME_NORMAL: f64 = 1e-9;
+
+/// Leaves out points within the hull of others on the same plane: a force there is a sum of forces in the same directions
+/// at the hull's corners, with the same resultant and the same moment, so that nothing is lost.
+fn without_inner(points: Vec<TouchPoint>, tolerance: f64) -> Vec<TouchPoint> {
+    let mut planes: Vec<Vec<TouchPoint>> = Vec::new();
+    for point in points {
+        let on = |plane: &Vec<TouchPoint>| {
+            let first = plane[0];
+            (first.normal - point.normal).abs().max_element() <= SAME_NORMAL
+                && first.normal.dot(point.point - first.point).abs() <= tolerance
+        };
+        match planes.iter().position(on) {
+            Some(plane) => planes[plane].push(point),
+            None => planes.push(vec![point]),
+        }
+    }
+    let mut kept: Vec<TouchPoint> = planes.iter().flat_map(|plane| hull_of(plane, tolerance)).collect();
+    kept.sort_by_key(|point| point.features);
+    kept
+}
+
+fn hull_of(plane: &[TouchPoint], tolerance: f64) -> Vec<TouchPoint> {
+    let u = plane[0].normal.any_orthonormal_vector();
+    let v = plane[0].normal.cross(u);
+    let mut apart: Vec<TouchPoint> = Vec::new();
+    for point in plane {
+        if apart.iter().all(|known| known.point.distance(point.point) > tolerance) {
+            apart.push(*point);
+        }
+    }
+    let flat = apart.iter().enumerate().map(|(k, p)| (k, [u.dot(p.point), v.dot(p.point)])).collect();
+    convex_outline(flat, tolerance).into_iter().map(|k| apart[k]).collect()
+}

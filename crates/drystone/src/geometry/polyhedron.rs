@@ -1,0 +1,314 @@
+//! Convex polyhedra: the hull of points, with the whole of each flat face in one piece.
+
+use super::Vector3;
+use parry3d_f64::transformation::try_convex_hull;
+use std::collections::BTreeMap;
+use thiserror::Error;
+
+/// A vertex this close to a face's plane, as a share of the largest extent, is on it. As in the plane
+/// (`polygon.rs`): far below the contact tolerance of a compact block, far above the rounding of coordinates.
+const STRAIGHT: f64 = 1e-9;
+
+/// A polyhedron narrower than this share of its largest extent has no volume to speak of.
+const FLAT: f64 = 1e-8;
+
+/// Most points of one convex piece. Contacts cost edges times edges.
+pub const MOST_POINTS: usize = 2000;
+
+/// What is wrong with the points of a convex piece, and what to do about it.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SolidFault {
+    /// No pieces.
+    #[error("a solid has no pieces: give at least one list of corners")]
+    NoPieces,
+    /// Fewer than four points.
+    #[error("{count} vertices do not make a polyhedron: give at least four")]
+    TooFewVertices {
+        /// Vertices given.
+        count: usize,
+    },
+    /// More points than contacts can be found for in reasonable time.
+    #[error("{count} vertices in one convex piece: simplify the mesh to at most {MOST_POINTS}")]
+    TooManyVertices {
+        /// Vertices given.
+        count: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} is not finite: give finite coordinates in metres")]
+    NotFinite {
+        /// Index of the vertex.
+        vertex: usize,
+    },
+    /// All vertices lie in a plane.
+    #[error("the polyhedron has zero volume: give corners that are not all in one plane")]
+    ZeroVolume,
+    /// The hull of the points could not be computed.
+    #[error("the convex hull of the vertices is not a closed surface ({reason}): merge vertices that nearly coincide")]
+    NoHull {
+        /// What went wrong.
+        reason: String,
+    },
+    /// Two pieces of one solid occupy the same place.
+    #[error(
+        "pieces {first} and {second} overlap by {depth:.3e} m: their mass would count twice; give pieces that only touch"
+    )]
+    PiecesOverlap {
+        /// Index of the first of them.
+        first: usize,
+        /// Index of the other.
+        second: usize,
+        /// The shortest way to part them, metres.
+        depth: f64,
+    },
+}
+
+/// An edge between two faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Edge {
+    /// Its vertices, in the order in which the first face goes round.
+    pub ends: [usize; 2],
+    /// The faces on either side.
+    pub faces: [usize; 2],
+}
+
+/// A convex polyhedron.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyhedron {
+    vertices: Vec<Vector3>,
+    /// Vertices of each face, counter-clockwise from outside.
+    faces: Vec<Vec<usize>>,
+    normals: Vec<Vector3>,
+    edges: Vec<Edge>,
+}
+
+impl Polyhedron {
+    /// The cuboid about the origin with these sides.
+    ///
+    /// Vertex k has the signs of k's bits: 0 is the corner of the smallest coordinates, 1 the next along x, 2 along y, 4 along
+    /// z. Sizes must be finite and positive (the scene checks them).
+    pub fn cuboid(size: [f64; 3]) -> Self {
+        let sign = |k: usize, axis: usize| if k >> axis & 1 == 1 { 0.5 } else { -0.5 };
+        let corner = |k| Vector3::new(sign(k, 0) * size[0], sign(k, 1) * size[1], sign(k, 2) * size[2]);
+        let faces = [[0, 1, 5, 4], [0, 2, 3, 1], [0, 4, 6, 2], [1, 3, 7, 5], [2, 6, 7, 3], [4, 5, 7, 6]];
+        let faces = faces.map(|face| face.to_vec()).to_vec();
+        Self::of((0..8).map(corner).collect(), faces).expect("a cuboid is closed")
+    }
+
+    /// The convex hull of points, in metres. Points within the hull or within a face are left out; the others keep
+    /// their order.
+    ///
+    /// # Errors
+    /// [`SolidFault`].
+    pub fn hull(points: &[Vector3]) -> Result<Self, SolidFault> {
+        let extent = check_points(points)?;
+        let corners = distinct(points, extent);
+        let planes = supporting_planes(&corners, extent)?;
+        let mut faces: Vec<Vec<usize>> = planes.iter().map(|plane| plane.outline(&corners, extent)).collect();
+        faces.sort();
+        faces.dedup();
+        let mut kept: Vec<usize> = faces.iter().flatten().copied().collect();
+        kept.sort_unstable();
+        kept.dedup();
+        let place: BTreeMap<usize, usize> = kept.iter().enumerate().map(|(new, &old)| (old, new)).collect();
+        faces.iter_mut().flatten().for_each(|vertex| *vertex = place[vertex]);
+        Self::of(kept.into_iter().map(|k| corners[k]).collect(), faces)
+    }
+
+    fn of(vertices: Vec<Vector3>, faces: Vec<Vec<usize>>) -> Result<Self, SolidFault> {
+        let normals = faces.iter().map(|face| newell(face, &vertices).normalize_or_zero()).collect();
+        let edges = edges(&faces)?;
+        Ok(Self { vertices, faces, normals, edges })
+    }
+
+    /// Corners, metres.
+    pub fn vertices(&self) -> &[Vector3] {
+        &self.vertices
+    }
+
+    /// Vertices of each face, counter-clockwise from outside.
+    pub fn faces(&self) -> &[Vec<usize>] {
+        &self.faces
+    }
+
+    /// Outward unit normal of each face.
+    pub fn normals(&self) -> &[Vector3] {
+        &self.normals
+    }
+
+    /// Every edge once.
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// The same, moved.
+    pub fn shifted(&self, by: Vector3) -> Self {
+        Self { vertices: self.vertices.iter().map(|v| *v + by).collect(), ..self.clone() }
+    }
+
+    /// The same with its vertices and normals put through a rotation.
+    pub(crate) fn turned(&self, rotate: impl Fn(Vector3) -> Vector3) -> Self {
+        let turned = |vectors: &[Vector3]| vectors.iter().map(|&v| rotate(v)).collect();
+        Self { vertices: turned(&self.vertices), normals: turned(&self.normals), ..self.clone() }
+    }
+
+    /// The faces as triangles, three vertices each, counter-clockwise from outside.
+    pub fn triangles(&self) -> impl Iterator<Item = [Vector3; 3]> + '_ {
+        let fan = |face: &'_ Vec<usize>| {
+            let corners: Vec<Vector3> = face.iter().map(|&k| self.vertices[k]).collect();
+            (1..corners.len() - 1).map(move |k| [corners[0], corners[k], corners[k + 1]]).collect::<Vec<_>>()
+        };
+        self.faces.iter().flat_map(fan)
+    }
+
+    /// Extent along a direction: the least and the greatest coordinate.
+    pub fn span(&self, direction: Vector3) -> [f64; 2] {
+        let along = self.vertices.iter().map(|v| direction.dot(*v));
+        along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+    }
+}
+
+/// Refuses what is no polyhedron at all; returns the largest side of the bounding box.
+fn check_points(points: &[Vector3]) -> Result<f64, SolidFault> {
+    if points.len() < 4 {
+        return Err(SolidFault::TooFewVertices { count: points.len() });
+    }
+    if points.len() > MOST_POINTS {
+        return Err(SolidFault::TooManyVertices { count: points.len() });
+    }
+    if let Some(vertex) = points.iter().position(|v| !v.is_finite()) {
+        return Err(SolidFault::NotFinite { vertex });
+    }
+    let low = points.iter().fold(points[0], |low, v| low.min(*v));
+    let high = points.iter().fold(points[0], |high, v| high.max(*v));
+    Ok((high - low).max_element())
+}
+
+/// The points without those that coincide with an earlier one.
+fn distinct(points: &[Vector3], extent: f64) -> Vec<Vector3> {
+    let mut kept: Vec<Vector3> = Vec::with_capacity(points.len());
+    for point in points {
+        if kept.iter().all(|k| k.distance(*point) > STRAIGHT * extent) {
+            kept.push(*point);
+        }
+    }
+    kept
+}
+
+/// A plane with all points on one side of it.
+struct Plane {
+    normal: Vector3,
+    /// Coordinate along the normal.
+    offset: f64,
+}
+
+/// The planes of the hull's faces, each at least once.
+fn supporting_planes(points: &[Vector3], extent: f64) -> Result<Vec<Plane>, SolidFault> {
+    // About the first point, so that nothing is lost far from the origin.
+    let origin = points[0];
+    let near: Vec<Vector3> = points.iter().map(|p| *p - origin).collect();
+    let hull = std::panic::catch_unwind(|| try_convex_hull(&near));
+    let (vertices, triangles) = match hull {
+        Ok(Ok(hull)) => hull,
+        Ok(Err(parry3d_f64::transformation::ConvexHullError::MissingSupportPoint)) => {
+            return Err(SolidFault::ZeroVolume);
+        }
+        Ok(Err(error)) => return Err(SolidFault::NoHull { reason: error.to_string() }),
+        Err(_) => return Err(SolidFault::NoHull { reason: "the search for it failed".into() }),
+    };
+    let mut planes = Vec::new();
+    for [a, b, c] in triangles.into_iter().map(|triangle| triangle.map(|k| vertices[k as usize])) {
+        let square = (b - a).cross(c - a);
+        // A sliver's normal is rounding; the faces beside it have larger triangles.
+        if square.length() <= STRAIGHT * extent * extent {
+            continue;
+        }
+        let normal = square.normalize();
+        let offset = near.iter().map(|p| normal.dot(*p)).fold(f64::NEG_INFINITY, f64::max);
+        let depth = near.iter().map(|p| offset - normal.dot(*p)).fold(0.0, f64::max);
+        if depth <= FLAT * extent {
+            return Err(SolidFault::ZeroVolume);
+        }
+        planes.push(Plane { normal, offset: offset + normal.dot(origin) });
+    }
+    match planes.is_empty() {
+        true => Err(SolidFault::ZeroVolume),
+        false => Ok(planes),
+    }
+}
+
+impl Plane {
+    /// The points on the plane that are corners of their hull, counter-clockwise from outside, the smallest index first.
+    fn outline(&self, points: &[Vector3], extent: f64) -> Vec<usize> {
+        let on = |k: &usize| self.offset - self.normal.dot(points[*k]) <= STRAIGHT * extent;
+        let u = self.normal.any_orthonormal_vector();
+        let v = self.normal.cross(u);
+        let flat = |k: usize| [u.dot(points[k]), v.dot(points[k])];
+        let corners: Vec<(usize, [f64; 2])> = (0..points.len()).filter(on).map(|k| (k, flat(k))).collect();
+        let mut loop_ = convex_outline(corners, STRAIGHT * extent);
+        let first = (0..loop_.len()).min_by_key(|&k| loop_[k]).unwrap_or(0);
+        loop_.rotate_left(first);
+        loop_
+    }
+}
+
+/// The corners of the convex hull of numbered points in the plane, counter-clockwise; points within `tolerance` of a straight
+/// line between others are no corners. Andrew's monotone chain.
+pub(crate) fn convex_outline(mut points: Vec<(usize, [f64; 2])>, tolerance: f64) -> Vec<usize> {
+    points.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let straight = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
+        let (ux, uy) = (c[0] - a[0], c[1] - a[1]);
+        let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+        turn <= tolerance * ux.hypot(uy)
+    };
+    let chain = |points: &mut dyn Iterator<Item = (usize, [f64; 2])>| {
+        let mut kept: Vec<(usize, [f64; 2])> = Vec::new();
+        for point in points {
+            while let [.., a, b] = kept[..]
+                && straight(a.1, b.1, point.1)
+            {
+                kept.pop();
+            }
+            kept.push(point);
+        }
+        kept.pop();
+        kept
+    };
+    if points.len() < 3 {
+        return points.into_iter().map(|(k, _)| k).collect();
+    }
+    let lower = chain(&mut points.iter().copied());
+    let upper = chain(&mut points.iter().rev().copied());
+    lower.into_iter().chain(upper).map(|(k, _)| k).collect()
+}
+
+/// Twice the area of a flat polygon, along its normal.
+fn newell(face: &[usize], vertices: &[Vector3]) -> Vector3 {
+    let first = vertices[face[0]];
+    let next = face.iter().cycle().skip(1);
+    face.iter().zip(next).map(|(&a, &b)| (vertices[a] - first).cross(vertices[b] - first)).sum()
+}
+
+/// Every edge once. A closed surface has each of them in two faces, once either way.
+fn edges(faces: &[Vec<usize>]) -> Result<Vec<Edge>, SolidFault> {
+    let no_hull = |reason: &str| SolidFault::NoHull { reason: reason.to_owned() };
+    if faces.iter().any(|face| face.len() < 3) {
+        return Err(no_hull("a face has no area"));
+    }
+    let mut beside: BTreeMap<[usize; 2], usize> = BTreeMap::new();
+    for (index, face) in faces.iter().enumerate() {
+        for (&a, &b) in face.iter().zip(face.iter().cycle().skip(1)) {
+            if beside.insert([a, b], index).is_some() {
+                return Err(no_hull("two faces run the same way along an edge"));
+            }
+        }
+    }
+    let mut edges = Vec::new();
+    for (&[a, b], &face) in &beside {
+        match beside.get(&[b, a]) {
+            None => return Err(no_hull("an edge has one face only")),
+            Some(&other) if a < b => edges.push(Edge { ends: [a, b], faces: [face, other] }),
+            Some(_) => {}
+        }
+    }
+    Ok(edges)
+}

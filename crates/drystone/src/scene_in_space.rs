@@ -1,0 +1,74 @@
+//! Scenes of solids.
+
+use crate::{
+    contact::{RELATIVE_TOLERANCE, overlapping_pieces},
+    error::SceneError,
+    geometry::{PoseInSpace, Shape, Solid, SolidFault, Vector3},
+    scene::{Body, BodyOptions, SceneOf, finite, positive},
+};
+
+/// Blocks under gravity in space.
+pub type SceneInSpace = SceneOf<Solid>;
+
+impl Body<Solid> {
+    /// Every corner in the world, metres, piece by piece.
+    pub fn corners(&self) -> Vec<[f64; 3]> {
+        self.shape.vertices().map(|v| self.pose.transform(v).to_array()).collect()
+    }
+}
+
+impl SceneInSpace {
+    /// Adds a cuboid with the given centre and sides. The pose's orientation need not have length one. Returns the
+    /// block's index.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn add_cuboid(&mut self, pose: PoseInSpace, size: [f64; 3], options: BodyOptions) -> Result<usize, SceneError> {
+        let name = self.free_name(&options)?;
+        let pose = checked(&name, "center", pose)?;
+        for (axis, &side) in size.iter().enumerate() {
+            positive(&format!("block \"{name}\": size[{axis}]"), side)?;
+        }
+        self.push(name, Solid::cuboid(size), Some(size), pose, options)
+    }
+
+    /// Adds one rigid block of convex pieces: the hull of each list of points in a frame, metres. The body's own frame
+    /// keeps the orientation and moves its origin to the centroid. Returns the block's index.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn add_solid(
+        &mut self,
+        pieces: &[Vec<[f64; 3]>],
+        frame: PoseInSpace,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let name = self.free_name(&options)?;
+        let frame = checked(&name, "position", frame)?;
+        let bad = |fault: SolidFault| SceneError::BadSolid { body: name.clone(), fault };
+        let (solid, centroid) = Solid::from_pieces(pieces).map_err(bad)?;
+        let tolerance = self.contact_tolerance().unwrap_or(RELATIVE_TOLERANCE * solid.width());
+        if let Some(([first, second], depth)) = overlapping_pieces(&solid, tolerance) {
+            return Err(bad(SolidFault::PiecesOverlap { first, second, depth }));
+        }
+        let position = frame.transform(Vector3::from_array(centroid)).to_array();
+        self.push(name, solid, None, PoseInSpace { position, ..frame }, options)
+    }
+}
+
+/// A pose of finite numbers, its quaternion scaled to length one.
+fn checked(name: &str, place: &str, pose: PoseInSpace) -> Result<PoseInSpace, SceneError> {
+    for axis in 0..3 {
+        finite(&format!("block \"{name}\": {place}[{axis}]"), pose.position[axis])?;
+    }
+    for (k, &value) in pose.orientation.iter().enumerate() {
+        finite(&format!("block \"{name}\": orientation[{k}]"), value)?;
+    }
+    let length = pose.orientation.iter().map(|q| q * q).sum::<f64>().sqrt();
+    if length == 0.0 {
+        return Err(SceneError::ZeroOrientation { body: name.to_owned() });
+    }
+    // Within rounding of one it stays as it is, so that a stored orientation comes back bit for bit.
+    let unit = if (length - 1.0).abs() <= 4.0 * f64::EPSILON { 1.0 } else { length };
+    Ok(PoseInSpace { orientation: pose.orientation.map(|q| q / unit), ..pose })
+}
