@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     )
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.planning import Plan, TestRecord, plan
-    from drystone.scene import Body, Contact, Scene
+    from drystone.scene import Body, Contact, Piece, Scene, Solid
     from drystone.simulation import Run, simulate
     from drystone.statics import StaticsError
     from drystone.structure import Structure
@@ -36,12 +36,14 @@ __all__ = [
     "EngineError",
     "LcpError",
     "ManyPlans",
+    "Piece",
     "Plan",
     "Run",
     "Scene",
     "SceneError",
     "ScenePlan",
     "SimulationError",
+    "Solid",
     "StartError",
     "StaticsError",
     "StepError",
@@ -69,12 +71,14 @@ _HOMES = {
     "EngineError": "drystone.many",
     "LcpError": "drystone._core",
     "ManyPlans": "drystone.many",
+    "Piece": "drystone.scene",
     "Plan": "drystone.planning",
     "Run": "drystone.simulation",
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
     "ScenePlan": "drystone.many",
     "SimulationError": "drystone._core",
+    "Solid": "drystone.scene",
     "StartError": "drystone._core",
     "StaticsError": "drystone.statics",
     "Structure": "drystone.structure",

@@ -23,6 +23,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "SimulationError",
+    "Solid",
     "StartError",
     "StepError",
     "StepRecord",
@@ -54,14 +55,17 @@ class StepError(DrystoneError): ...
 class Scene:
     def __new__(
         cls,
-        gravity: tuple[float, float],
+        gravity: Sequence[float],
         friction: float,
         contact_tolerance: float | None = None,
     ) -> Scene: ...
     @property
-    def gravity(self) -> tuple[float, float]: ...
+    def dimension(self) -> int: ...
+    @property
+    def gravity(self) -> tuple[float, ...]: ...
     @property
     def friction(self) -> float: ...
+    def largest_friction(self) -> float: ...
     @property
     def contact_tolerance(self) -> float | None: ...
     def add_box(
@@ -82,10 +86,31 @@ class Scene:
         friction: float | None,
         fixed: bool,
     ) -> str: ...
+    def add_cuboid(
+        self,
+        center: tuple[float, float, float],
+        size: tuple[float, float, float],
+        orientation: tuple[float, float, float, float],
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+    ) -> str: ...
+    def add_solid(
+        self,
+        pieces: Sequence[Sequence[tuple[float, float, float]]],
+        position: tuple[float, float, float],
+        orientation: tuple[float, float, float, float],
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+    ) -> str: ...
+    def extruded(self, depth: float) -> Scene: ...
     def __len__(self) -> int: ...
     def names(self) -> list[str]: ...
-    def body(self, name: str) -> Body: ...
-    def bodies(self) -> list[Body]: ...
+    def body(self, name: str) -> Body | Solid: ...
+    def bodies(self) -> list[Body | Solid]: ...
     def contacts(self) -> list[Contact]: ...
     def corner_touches(self) -> list[tuple[str, str]]: ...
     def to_json(self) -> str: ...
@@ -112,14 +137,34 @@ class Body:
     vertices: NDArray[np.float64]
 
 @final
+class Solid:
+    """A snapshot of one body in space. `vertices` is (n, 3), every corner of every piece in world
+    coordinates; `pieces` has for each convex piece its corners in the body's frame, (k, 3), and its
+    faces as lists of them, counter-clockwise from outside. `inertia` is (3, 3), about the centroid
+    along the world's axes; `orientation` a unit quaternion (w, x, y, z).
+    """
+
+    name: str
+    fixed: bool
+    density: float
+    friction: float
+    mass: float
+    inertia: NDArray[np.float64]
+    centroid: tuple[float, float, float]
+    orientation: tuple[float, float, float, float]
+    box_size: tuple[float, float, float] | None
+    pieces: list[tuple[NDArray[np.float64], list[list[int]]]]
+    vertices: NDArray[np.float64]
+
+@final
 class Contact:
     """One contact point. `normal` is a unit vector from body `a` into body `b`."""
 
     a: str
     b: str
     feature: str
-    point: tuple[float, float]
-    normal: tuple[float, float]
+    point: tuple[float, ...]
+    normal: tuple[float, ...]
     gap: float
     friction: float
 
@@ -130,11 +175,11 @@ class ContactForce:
     a: str
     b: str
     feature: str
-    point: tuple[float, float]
-    normal: tuple[float, float]
+    point: tuple[float, ...]
+    normal: tuple[float, ...]
     normal_force: float
     tangential_force: float
-    force: tuple[float, float]
+    force: tuple[float, ...]
 
 @final
 class Verdict:
@@ -176,9 +221,10 @@ class Plan:
 class Generators:
     """Equilibrium of the complete assembly: G f = -F with f >= 0 (statics as a linear program).
 
-    G is (3 movable bodies, n generators) in compressed columns; row 3 i + k is body `names[i]`'s
-    x force, y force and moment about its centroid (k = 0, 1, 2). `bodies[j]` holds the two movable
-    bodies that generator j acts on (-1 for a fixed one).
+    G is (3 movable bodies, n generators) in compressed columns, in space (6 movable bodies, n
+    generators); row 3 i + k is body `names[i]`'s x force, y force and moment about its centroid
+    (k = 0, 1, 2), row 6 i + k its force and its moments about its principal axes. `bodies[j]` holds
+    the two movable bodies that generator j acts on (-1 for a fixed one).
     """
 
     names: list[str]
@@ -196,7 +242,7 @@ class Structure:
 
     set_up_seconds: float
     """Of the analysis of the complete assembly, once its contacts are known."""
-    def __new__(cls, scene: Scene) -> Structure: ...
+    def __new__(cls, scene: Scene, cones: tuple[int, str] | None = None) -> Structure: ...
     def names(self) -> list[str]: ...
     def blocks(self) -> list[int]: ...
     def change(self, removed: list[int], added: list[int]) -> None: ...
@@ -239,7 +285,7 @@ class StructureForces:
     """Forces of some structures of an order: those of the k-th are entries offsets[k]:offsets[k+1].
 
     `blocks[k]` is its number of movable bodies, `stands[k]` whether forces hold it up. `contact` is
-    an index into `Scene.contacts()`; `force` (n, 2) acts on the contact's second body, N.
+    an index into `Scene.contacts()`; `force` (n, 2 or 3) acts on the contact's second body, N.
     """
 
     blocks: NDArray[np.int64]
@@ -413,9 +459,14 @@ class LcpSolver:
 def catalogue() -> list[tuple[str, str, list[tuple[str, str, bool, float]]]]:
     """Built-in scenes: (name, summary, [(parameter, summary, whole number or not, default)])."""
 
-def generators(scene: Scene) -> Generators: ...
+def generators(scene: Scene, cones: tuple[int, str] | None = None) -> Generators:
+    """`cones`: edges of a friction cone in space, and "inscribed" or "circumscribed"."""
+
 def check(
-    scene: Scene, blocks: Sequence[str] | None = None, method: str = "equilibrium"
+    scene: Scene,
+    blocks: Sequence[str] | None = None,
+    method: str = "equilibrium",
+    cones: tuple[int, str] | None = None,
 ) -> Verdict: ...
 def plan(
     scene: Scene,
@@ -425,6 +476,7 @@ def plan(
     progress: Callable[[int, int, int], None] | None = None,
     shortcuts: bool = True,
     threads: int | None = None,
+    cones: tuple[int, str] | None = None,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
@@ -436,6 +488,7 @@ def forces_along(
     order: Sequence[str],
     every: int = 1,
     progress: Callable[[int, int], None] | None = None,
+    cones: tuple[int, str] | None = None,
 ) -> StructureForces:
     """Contact forces while movable bodies are put up in an order, the first put up first.
 

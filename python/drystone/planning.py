@@ -8,6 +8,7 @@ from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
+from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
 from drystone.verdict import Verdict, counted, shorten
 
@@ -77,9 +78,11 @@ class Plan:
     """The stability test used."""
     scene: Scene = field(repr=False)
     """The scene planned."""
+    cones: tuple[int, str] = (FACETS, CONES[0])
+    """In space: edges of a friction cone, and on which side of the round cone they lie."""
 
     @classmethod
-    def _of(cls, core: _core.Plan, test: str, scene: Scene) -> Plan:
+    def _of(cls, core: _core.Plan, test: str, scene: Scene, cones: tuple[int, str]) -> Plan:
         return cls(
             core.found,
             core.status,
@@ -92,9 +95,10 @@ class Plan:
             core.seconds,
             tuple(TestRecord(r.size, r.pivots, r.seconds, r.stable) for r in core.records),
             core.shortcuts,
-            None if core.whole is None else Verdict._of(core.whole, scene),
+            None if core.whole is None else Verdict._of(core.whole, scene, cones[1]),
             test,
             scene,
+            cones,
         )
 
     def __str__(self) -> str:
@@ -167,6 +171,9 @@ def plan(
     progress: Progress | None = None,
     shortcuts: bool = True,
     threads: int | None = None,
+    *,
+    facets: int = FACETS,
+    cone: str = CONES[0],
 ) -> Plan:
     """Search an order of removal in which no intermediate structure collapses.
 
@@ -194,6 +201,9 @@ def plan(
     search if it has 200 blocks or more, and "lcp" tests ahead what comes next if all stands. The
     tests that reuse depend on the one before, and run one after the other.
 
+    `facets` and `cone` ("inscribed" or "circumscribed") are the friction cones in space: see
+    `check`.
+
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found
     True
@@ -203,29 +213,34 @@ def plan(
             raise ValueError(f"{what} is {limit}: it must be zero or more")
     if threads is not None and threads < 1:
         raise ValueError(f"threads is {threads}: it must be one or more")
+    cones = core_cones(facets, cone)
     return Plan._of(
         _core.plan(
             scene._core,
-            _stability_test(scene, test),
+            _stability_test(scene, test, cones),
             node_limit,
             time_limit,
             progress,
             shortcuts,
             threads,
+            cones,
         ),
         test,
         scene,
+        cones,
     )
 
 
-def _stability_test(scene: Scene, test: str) -> str | Callable[[list[int], int], tuple[bool, int]]:
+def _stability_test(
+    scene: Scene, test: str, cones: tuple[int, str] = (FACETS, CONES[0])
+) -> str | Callable[[list[int], int], tuple[bool, int]]:
     """What the core's `plan` takes for `test`."""
     if test in ("reuse", "reuse-dantzig", "lcp"):
         return test
     from drystone import statics
 
     if test == "lp":
-        return statics.ColdProgram(statics.Equilibrium.of(scene))
+        return statics.ColdProgram(statics.Equilibrium.of(scene, cones))
     if test == "lp-warm":
-        return statics.WarmProgram(statics.Equilibrium.of(scene))
+        return statics.WarmProgram(statics.Equilibrium.of(scene, cones))
     raise ValueError(f"unknown test {test!r}: choose one of {', '.join(TESTS)}")

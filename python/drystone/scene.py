@@ -1,4 +1,4 @@
-"""Scenes: rigid bodies in the plane, and the points where they touch."""
+"""Scenes: rigid bodies in the plane or in space, and the points where they touch."""
 
 from __future__ import annotations
 
@@ -14,12 +14,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Point = Sequence[float]
-"""Two numbers (x, y), in metres unless said otherwise: a tuple, a list or an array."""
+"""Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
+an array."""
+
+
+ORIGIN = (0.0, 0.0, 0.0)
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+"""The quaternion (w, x, y, z) that turns nothing."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Body:
-    """A snapshot of one body of a scene."""
+    """A snapshot of one body of a scene in the plane."""
 
     name: str
     """Unique in its scene."""
@@ -42,6 +48,49 @@ class Body:
     """(n, 2), metres, world coordinates, counter-clockwise."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """One convex piece of a body in space."""
+
+    vertices: NDArray[np.float64]
+    """(k, 3), metres, in the body's frame, whose origin is the centroid."""
+    faces: tuple[tuple[int, ...], ...]
+    """Vertices of each face, counter-clockwise seen from outside."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solid:
+    """A snapshot of one body of a scene in space."""
+
+    name: str
+    """Unique in its scene."""
+    fixed: bool
+    """A fixed body never moves, whatever pushes it."""
+    density: float
+    """kg/m^3."""
+    friction: float
+    """The body's own coefficient of friction."""
+    mass: float
+    """kg."""
+    inertia: NDArray[np.float64]
+    """(3, 3), kg m^2, about the centroid along the axes of the world."""
+    centroid: tuple[float, float, float]
+    """(x, y, z) in metres."""
+    orientation: tuple[float, float, float, float]
+    """Unit quaternion (w, x, y, z): how far the body is turned from the shape it was given with."""
+    box_size: tuple[float, float, float] | None
+    """Sides of a box, metres."""
+    pieces: tuple[Piece, ...]
+    """Its convex pieces, in the body's frame."""
+    vertices: NDArray[np.float64]
+    """(n, 3), metres: every corner of every piece, in world coordinates."""
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """The centroid: where the body's frame stands."""
+        return self.centroid
+
+
 @dataclass(frozen=True, slots=True)
 class Contact:
     """One point where body `a` touches body `b`."""
@@ -50,9 +99,9 @@ class Contact:
     b: str
     feature: str
     """Which corner meets which side: with the two names, the contact's stable identity."""
-    point: tuple[float, float]
-    """(x, y) in metres."""
-    normal: tuple[float, float]
+    point: tuple[float, ...]
+    """(x, y) in metres; in space (x, y, z)."""
+    normal: tuple[float, ...]
     """Unit vector from `a` into `b`."""
     gap: float
     """Metres between the bodies here; negative where they overlap within tolerance."""
@@ -61,7 +110,7 @@ class Contact:
 
 
 class Scene:
-    """Rigid convex bodies in the plane under gravity. SI units throughout.
+    """Rigid bodies under gravity, in the plane or in space. SI units throughout.
 
     >>> import drystone as ds
     >>> scene = ds.Scene(friction=0.5)
@@ -71,6 +120,16 @@ class Scene:
     'block'
     >>> [contact.point for contact in scene.contacts]
     [(-0.5, 0.0), (0.5, 0.0)]
+
+    In space z is up, and boxes have three sides:
+
+    >>> space = ds.Scene(dimension=3)
+    >>> space.add_box((0, 0, -0.5), (4, 4, 1), name="ground", fixed=True)
+    'ground'
+    >>> space.add_box((0, 0, 0.5), (1, 1, 1), name="cube")
+    'cube'
+    >>> len(space.contacts)
+    4
     """
 
     __slots__ = ("_core",)
@@ -78,24 +137,29 @@ class Scene:
     def __init__(
         self,
         dimension: int = 2,
-        gravity: Point = (0.0, -9.81),
+        gravity: Point | None = None,
         friction: float = 0.5,
         *,
         contact_tolerance: float | None = None,
     ) -> None:
         """Begin an empty scene.
 
-        `gravity` is in m/s^2. `friction` is the coefficient of every body added without its own.
-        `contact_tolerance` (metres) is how far apart two bodies may be and still touch, and how
-        deep they may overlap; by default a small fraction of the bodies' size.
+        `dimension` is 2 for the plane or 3 for space. `gravity` is in m/s^2, by default 9.81
+        downwards: along -y in the plane, along -z in space. `friction` is the coefficient of every
+        body added without its own. `contact_tolerance` (metres) is how far apart two bodies may be
+        and still touch, and how deep they may overlap; by default a small fraction of the bodies'
+        size.
 
-        Raises SceneError if `dimension` is not 2 or a number is not usable.
+        Raises SceneError if `dimension` is neither 2 nor 3 or a number is not usable.
         """
-        if dimension != 2:
+        if dimension not in (2, 3):
             raise _core.SceneError(
-                f"dimension must be 2, not {dimension!r}: scenes in space are not supported yet"
+                f"dimension must be 2 (the plane) or 3 (space), not {dimension!r}"
             )
-        self._core = _core.Scene(_pair(gravity, "gravity"), friction, contact_tolerance)
+        if gravity is None:
+            gravity = (0.0, -9.81) if dimension == 2 else (0.0, 0.0, -9.81)
+        take = _pair if dimension == 2 else _triple
+        self._core = _core.Scene(take(gravity, "gravity"), friction, contact_tolerance)
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Scene:
@@ -113,18 +177,34 @@ class Scene:
         density: float = 1.0,
         friction: float | None = None,
         fixed: bool = False,
+        *,
+        orientation: Sequence[float] = UPRIGHT,
     ) -> str:
         """Add a box and return its name.
 
-        `center` and `size` (width, height) are in metres, `angle` in radians counter-clockwise,
-        `density` in kg/m^2. Without a `name` the body is called "b0", "b1", ... by its place in
-        the scene.
+        `center` and `size` (width, height; in space along x, y and z) are in metres, `density` in
+        kg/m^2 (in space kg/m^3). In the plane the box is turned by `angle`, in radians
+        counter-clockwise; in space by `orientation`, a quaternion (w, x, y, z). Without a `name`
+        the body is called "b0", "b1", ... by its place in the scene.
 
-        Raises SceneError, naming the body and the fix, for numbers that are not usable, a name
-        already taken, or a box that overlaps another body.
+        Raises SceneError, naming the body and the fix, for numbers that are not usable or a name
+        already taken. Bodies that overlap are an error of the first question asked of the scene.
         """
-        return self._core.add_box(
-            _pair(center, "center"), _pair(size, "size"), angle, name, density, friction, fixed
+        if self.dimension == 2:
+            if tuple(orientation) != UPRIGHT:
+                raise _core.SceneError("a box in the plane is turned by angle=, not orientation=")
+            corner, sides = _pair(center, "center"), _pair(size, "size")
+            return self._core.add_box(corner, sides, angle, name, density, friction, fixed)
+        if angle != 0.0:
+            raise _core.SceneError("a box in space is turned by orientation=, not angle=")
+        return self._core.add_cuboid(
+            _triple(center, "center"),
+            _triple(size, "size"),
+            _quaternion(orientation),
+            name,
+            density,
+            friction,
+            fixed,
         )
 
     def add_polygon(
@@ -142,6 +222,66 @@ class Scene:
         """
         corners = [_pair(vertex, "a vertex") for vertex in vertices]
         return self._core.add_polygon(corners, name, density, friction, fixed)
+
+    def add_polyhedron(
+        self,
+        vertices: Iterable[Point],
+        name: str | None = None,
+        density: float = 1.0,
+        friction: float | None = None,
+        fixed: bool = False,
+        *,
+        position: Point = ORIGIN,
+        orientation: Sequence[float] = UPRIGHT,
+    ) -> str:
+        """Add the convex hull of points in space and return its name.
+
+        `vertices` are at least four (x, y, z) in metres, in any order, in a frame that stands at
+        `position`, turned by `orientation`: the world's own by default. The other arguments and
+        the errors are those of `add_box`.
+        """
+        return self.add_solid(
+            [vertices],
+            name,
+            density,
+            friction,
+            fixed,
+            position=position,
+            orientation=orientation,
+        )
+
+    def add_solid(
+        self,
+        pieces: Iterable[Iterable[Point]],
+        name: str | None = None,
+        density: float = 1.0,
+        friction: float | None = None,
+        fixed: bool = False,
+        *,
+        position: Point = ORIGIN,
+        orientation: Sequence[float] = UPRIGHT,
+    ) -> str:
+        """Add one rigid body made of convex pieces and return its name.
+
+        Each piece is the convex hull of its points, as `add_polyhedron` takes them. Pieces may
+        touch; those that overlap are refused, for their mass would count twice.
+        """
+        return self._core.add_solid(
+            [[_triple(vertex, "a vertex") for vertex in piece] for piece in pieces],
+            _triple(position, "position"),
+            _quaternion(orientation),
+            name,
+            density,
+            friction,
+            fixed,
+        )
+
+    def extruded(self, depth: float = 1.0) -> Scene:
+        """This planar scene in space: (x, y) becomes (x, 0, y), and every block gets a thickness.
+
+        Blocks reach from -`depth` / 2 to `depth` / 2 along y; masses stay what they are.
+        """
+        return Scene._of(self._core.extruded(depth))
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Scene:
@@ -163,11 +303,11 @@ class Scene:
 
     @property
     def dimension(self) -> int:
-        """2: bodies live in the plane."""
-        return 2
+        """2: bodies live in the plane. 3: in space."""
+        return self._core.dimension
 
     @property
-    def gravity(self) -> tuple[float, float]:
+    def gravity(self) -> tuple[float, ...]:
         """Acceleration of free fall, m/s^2."""
         return self._core.gravity
 
@@ -182,17 +322,24 @@ class Scene:
         return self._core.names()
 
     @property
-    def bodies(self) -> list[Body]:
-        """Snapshots of all bodies, in the order they were added."""
+    def bodies(self) -> list[Any]:
+        """Snapshots of all bodies, in the order they were added.
+
+        Each is a `Body` in the plane, a `Solid` in space.
+        """
         return [_snapshot(body) for body in self._core.bodies()]
 
-    def body(self, name: str) -> Body:
-        """The body called `name`; SceneError if there is none."""
+    def body(self, name: str) -> Any:
+        """The body called `name`, a `Body` or a `Solid`; SceneError if there is none."""
         return _snapshot(self._core.body(name))
 
     @property
     def contacts(self) -> list[Contact]:
-        """Every contact point: both ends of a shared face, the corner of a corner on a face."""
+        """Every contact point: both ends of a shared face, the corner of a corner on a face.
+
+        In space every corner of the polygon that two faces share, both ends of an edge on a face,
+        and where an edge crosses an edge.
+        """
         return [
             Contact(c.a, c.b, c.feature, c.point, c.normal, c.gap, c.friction)
             for c in self._core.contacts()
@@ -203,7 +350,9 @@ class Scene:
 
     def __repr__(self) -> str:
         fixed = sum(body.fixed for body in self._core.bodies())
-        return f"<Scene: {len(self)} bodies, {fixed} of them fixed, friction {self.friction:g}>"
+        where = "" if self.dimension == 2 else " in space"
+        count = f"{len(self)} bodies{where}, {fixed} of them fixed"
+        return f"<Scene: {count}, friction {self.friction:g}>"
 
     def draw(self, path: str | PathLike[str]) -> None:
         """Write a picture of the scene; the name ends in .svg or .png."""
@@ -229,7 +378,40 @@ def _pair(value: Point, what: str) -> tuple[float, float]:
         raise _core.SceneError(f"{what} must be two numbers (x, y), not {value!r}") from None
 
 
-def _snapshot(body: _core.Body) -> Body:
+def _triple(value: Point, what: str) -> tuple[float, float, float]:
+    """`value` as three floats; SceneError naming `what` otherwise."""
+    try:
+        x, y, z = value
+        return float(x), float(y), float(z)
+    except (TypeError, ValueError):
+        raise _core.SceneError(f"{what} must be three numbers (x, y, z), not {value!r}") from None
+
+
+def _quaternion(value: Sequence[float]) -> tuple[float, float, float, float]:
+    try:
+        w, x, y, z = value
+        return float(w), float(x), float(y), float(z)
+    except (TypeError, ValueError):
+        raise _core.SceneError(
+            f"orientation must be a quaternion (w, x, y, z), not {value!r}"
+        ) from None
+
+
+def _snapshot(body: _core.Body | _core.Solid) -> Body | Solid:
+    if isinstance(body, _core.Solid):
+        return Solid(
+            body.name,
+            body.fixed,
+            body.density,
+            body.friction,
+            body.mass,
+            body.inertia,
+            body.centroid,
+            body.orientation,
+            body.box_size,
+            tuple(Piece(v, tuple(tuple(face) for face in faces)) for v, faces in body.pieces),
+            body.vertices,
+        )
     return Body(
         body.name,
         body.fixed,

@@ -1,8 +1,8 @@
 """Built-in scenes: the paper's, and structures whose limits are known in closed form.
 
-All stand under gravity (0, -9.81) m/s^2, with density 1 kg/m^2. Movable blocks are named by numbers
-from "1", fixed ones by what they are ("ground", "table", "plane"). The paper's planning scenes are
-frictionless by default.
+All stand under gravity (0, -9.81) m/s^2, or (0, 0, -9.81) in space, with density 1 kg/m^2
+(kg/m^3). Movable blocks are named by numbers from "1", fixed ones by what they are ("ground",
+"table", "plane"). The paper's planning scenes are frictionless by default.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from drystone.scene import Scene
 
 __all__ = [
     "arch",
+    "brick_wall",
     "col20",
     "col50",
     "column",
@@ -28,6 +29,7 @@ __all__ = [
     "pyramid",
     "random_stack",
     "slope",
+    "square_pyramid",
     "three_segments",
     "wall",
     "wall84",
@@ -127,6 +129,20 @@ def wall(rows: int = 10, columns: int = 10, seed: int = 0, friction: float = 0.6
     places at random.
     """
     return _built("wall", rows=rows, columns=columns, seed=seed, friction=friction)
+
+
+def brick_wall(rows: int = 5, columns: int = 5, friction: float = 0.6) -> Scene:
+    """A wall in space: bricks of 1 m by 0.5 m by 0.5 m in running bond, half ones at the ends."""
+    return _built("brick_wall", rows=rows, columns=columns, friction=friction)
+
+
+def square_pyramid(layers: int = 7, friction: float = 0.0) -> Scene:
+    """Square layers of unit cubes in space, each cube on four of the layer below.
+
+    >>> len(square_pyramid(7))
+    141
+    """
+    return _built("square_pyramid", layers=layers, friction=friction)
 
 
 def falling_column(friction: float = 0.2) -> Scene:

@@ -20,6 +20,7 @@ import numpy as np
 
 from drystone import _core
 from drystone._core import DrystoneError
+from drystone.cones import CONES, FACETS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -57,22 +58,24 @@ class Columns:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Equilibrium:
-    """The scaled program of the complete assembly: rows 3 i + k of movable body i."""
+    """The scaled program of the complete assembly: rows per_body i + k of movable body i."""
 
     indptr: NDArray[np.int64]
     rows: NDArray[np.int64]
     values: NDArray[np.float64]
     right: NDArray[np.float64]
-    """(3 bodies,), the accelerations to balance."""
+    """(per_body bodies,), the accelerations to balance."""
     bodies: NDArray[np.int64]
     """(generators, 2), -1 for a fixed body."""
     touching: tuple[NDArray[np.int64], ...]
     """For each body the generators that act on it."""
+    per_body: int
+    """Rows of a body: 3 in the plane, 6 in space."""
 
     @classmethod
-    def of(cls, scene: Scene) -> Equilibrium:
+    def of(cls, scene: Scene, cones: tuple[int, str] = (FACETS, CONES[0])) -> Equilibrium:
         """The program of all movable bodies of `scene`."""
-        g = _core.generators(scene._core)
+        g = _core.generators(scene._core, cones)
         per_column = np.diff(g.indptr)
         values = g.data * g.inverse_mass[g.indices]
         largest = np.zeros(len(per_column))
@@ -80,17 +83,19 @@ class Equilibrium:
         values /= np.repeat(largest, per_column)
         right = -g.applied * g.inverse_mass
         right /= np.max(np.abs(right), initial=0.0) or 1.0
-        return cls(g.indptr, g.indices, values, right, g.bodies, _touching(g.bodies, len(g.names)))
+        touching = _touching(g.bodies, len(g.names))
+        per_body = 3 if scene.dimension == 2 else 6
+        return cls(g.indptr, g.indices, values, right, g.bodies, touching, per_body)
 
     def columns(self, generators: NDArray[np.int64], place: NDArray[np.int64]) -> Columns:
         """Some generators' columns; `place[body]` is where the body's rows are in the model."""
         lengths = self.indptr[generators + 1] - self.indptr[generators]
         starts = np.concatenate(([0], np.cumsum(lengths)))
         entries = np.arange(starts[-1]) + np.repeat(self.indptr[generators] - starts[:-1], lengths)
-        rows = self.rows[entries]
+        rows, n = self.rows[entries], self.per_body
         return Columns(
             starts[:-1].astype(np.int32),
-            (3 * place[rows // 3] + rows % 3).astype(np.int32),
+            (n * place[rows // n] + rows % n).astype(np.int32),
             self.values[entries],
         )
 
@@ -121,7 +126,8 @@ class ColdProgram:
         present[bodies] = present[-1] = True
         place = np.zeros(len(program.touching), dtype=np.int64)
         place[bodies] = np.arange(len(bodies))
-        rows = (3 * np.asarray(bodies)[:, None] + np.arange(3)).ravel()
+        n = program.per_body
+        rows = (n * np.asarray(bodies)[:, None] + np.arange(n)).ravel()
         _add_rows(self._highs, program.right[rows])
         generators = np.flatnonzero(present[program.bodies].all(axis=1))
         _add_columns(self._highs, program.columns(generators, place))
@@ -177,7 +183,8 @@ class WarmProgram:
         self._place[body] = len(self._placed)
         touching = program.touching[body]
         generators = touching[self._present[program.bodies[touching]].all(axis=1)]
-        _add_rows(self._highs, program.right[3 * body : 3 * body + 3])
+        n = program.per_body
+        _add_rows(self._highs, program.right[n * body : n * body + n])
         _add_columns(self._highs, program.columns(generators, self._place))
         self._placed.append(_Placed(body, len(generators)))
 
@@ -194,7 +201,8 @@ class WarmProgram:
         del self._placed[keep:]
         self._present[[placed.body for placed in dropped]] = False
         count = sum(placed.columns for placed in dropped)
-        _delete_last(self._highs, columns=count, rows=3 * len(dropped))
+        rows = self._program.per_body * len(dropped)
+        _delete_last(self._highs, columns=count, rows=rows)
         if self._placed and self._placed[-1].basis is not None:
             self._highs.setBasis(self._placed[-1].basis)
 

@@ -6,6 +6,7 @@ import copy
 from collections.abc import Iterable
 
 from drystone import _core
+from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
 from drystone.verdict import Verdict
 
@@ -27,14 +28,22 @@ class Structure:
     (False, ('4',))
 
     Raises SceneError for a scene in which blocks overlap, and for a name that no movable body has.
-    One thread at a time may use a structure.
+    One thread at a time may use a structure. `facets` and `cone` are as in `plan`.
     """
 
-    __slots__ = ("_core", "_index", "_names", "_scene")
+    __slots__ = ("_cone", "_core", "_index", "_names", "_scene")
 
-    def __init__(self, scene: Scene, blocks: Iterable[str] = ()) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        blocks: Iterable[str] = (),
+        *,
+        facets: int = FACETS,
+        cone: str = CONES[0],
+    ) -> None:
         self._scene = copy.copy(scene)
-        self._core = _core.Structure(scene._core)
+        self._cone = cone
+        self._core = _core.Structure(scene._core, core_cones(facets, cone))
         self._names = tuple(self._core.names())
         self._index = {name: block for block, name in enumerate(self._names)}
         self.add(*blocks)
@@ -64,7 +73,7 @@ class Structure:
 
     def check(self) -> Verdict:
         """The verdict with all contact forces, or how it begins to fall; as `check` gives it."""
-        return Verdict._of(self._core.check(), self._scene)
+        return Verdict._of(self._core.check(), self._scene, self._cone)
 
     @property
     def pivots(self) -> int:

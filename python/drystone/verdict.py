@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
+from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
 
 if TYPE_CHECKING:
@@ -22,16 +23,17 @@ class ContactForce:
     a: str
     b: str
     feature: str
-    point: tuple[float, float]
-    """(x, y) in metres."""
-    normal: tuple[float, float]
+    point: tuple[float, ...]
+    """(x, y) in metres; in space (x, y, z)."""
+    normal: tuple[float, ...]
     """Unit vector from `a` into `b`."""
     normal_force: float
     """N along `normal`; never negative: contacts push, they do not pull."""
     tangential_force: float
-    """N along `normal` turned a quarter counter-clockwise."""
-    force: tuple[float, float]
-    """(x, y) in N."""
+    """N along `normal` turned a quarter counter-clockwise; in space the size of what is square to
+    the normal."""
+    force: tuple[float, ...]
+    """(x, y) in N; in space (x, y, z)."""
 
     @classmethod
     def _of(cls, core: _core.ContactForce) -> ContactForce:
@@ -61,7 +63,8 @@ class Verdict:
     names: tuple[str, ...]
     """The movable bodies checked, in the order of the rows of `accelerations`."""
     accelerations: NDArray[np.float64]
-    """(bodies, 3): x and y in m/s^2, and the angular one in rad/s^2, counter-clockwise.
+    """(bodies, 3): x and y in m/s^2, and the angular one in rad/s^2, counter-clockwise. In space
+    (bodies, 6): x, y and z, and the angular ones about x, y and z.
 
     Zero if and only if stable. Where a contact with friction slides they are those of the convex
     model (maximum dissipation), in which it also opens: a block on a slope of angle a accelerates
@@ -79,9 +82,13 @@ class Verdict:
     """Wall time of the solve."""
     scene: Scene = field(repr=False)
     """The scene checked."""
+    certain: bool = True
+    """Whether Coulomb's round cone has the same verdict. True in the plane and without friction,
+    and of what stands within inscribed cones or falls within circumscribed ones. False where the
+    cones' edges may have decided: see `cone` of `check`."""
 
     @classmethod
-    def _of(cls, core: _core.Verdict, scene: Scene) -> Verdict:
+    def _of(cls, core: _core.Verdict, scene: Scene, cone: str = CONES[0]) -> Verdict:
         return cls(
             core.stable,
             core.status,
@@ -95,10 +102,11 @@ class Verdict:
             core.residual,
             core.seconds,
             scene,
+            _certain(core, scene, cone),
         )
 
     def acceleration(self, name: str) -> NDArray[np.float64]:
-        """(x, y, angular) of the body called `name`, in m/s^2 and rad/s^2."""
+        """The row of `accelerations` of the body called `name`, in m/s^2 and rad/s^2."""
         try:
             row: NDArray[np.float64] = self.accelerations[self.names.index(name)]
         except ValueError:
@@ -109,6 +117,8 @@ class Verdict:
         work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
         if self.status != "solved":
             return f"No answer ({self.status}): {work}."
+        if not self.certain:
+            work += "; undecided between inscribed and circumscribed friction cones"
         if self.stable:
             points = counted(len(self.forces), "contact point")
             return f"Stands: {counted(len(self.names), 'block')}, {points}; {work}."
@@ -120,6 +130,7 @@ class Verdict:
         return {
             "stable": self.stable,
             "status": self.status,
+            "certain": self.certain,
             "falling": list(self.falling),
             "accelerations": {
                 name: row.tolist() for name, row in zip(self.names, self.accelerations, strict=True)
@@ -157,7 +168,12 @@ class Verdict:
 
 
 def check(
-    scene: Scene, blocks: Iterable[str] | None = None, method: str = "equilibrium"
+    scene: Scene,
+    blocks: Iterable[str] | None = None,
+    method: str = "equilibrium",
+    *,
+    facets: int = FACETS,
+    cone: str = CONES[0],
 ) -> Verdict:
     """Compute the contact forces and accelerations of `scene` at rest.
 
@@ -168,6 +184,12 @@ def check(
     problem for the accelerations only if there are none; "lcp" solves it in any case, by Dantzig's
     method. The verdict is the same; where a structure is redundant the forces may differ.
 
+    In space Coulomb's round cones are replaced by pyramids of `facets` edges. `cone` "inscribed"
+    has them within the round ones, so that a structure is never said to stand because of them;
+    "circumscribed" has them around, so that none is said to fall because of them. "both" asks the
+    inscribed ones first and, if it falls there, the circumscribed ones: `certain` is then false
+    only where the two differ. More facets narrow that gap as 1 - cos(pi / facets).
+
     >>> import drystone as ds
     >>> verdict = ds.check(ds.scenes.column(4))
     >>> verdict.stable
@@ -176,7 +198,21 @@ def check(
     if isinstance(blocks, str):
         raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
     names = None if blocks is None else list(blocks)
-    return Verdict._of(_core.check(scene._core, names, method), scene)
+    core_cones(facets, cone, CONES)
+    inner = CONES[0] if cone == "both" else cone
+    verdict = Verdict._of(_core.check(scene._core, names, method, (facets, inner)), scene, inner)
+    if cone == "both" and not verdict.certain:
+        outer = _core.check(scene._core, names, method, (facets, CONES[1]))
+        if outer.status == "solved" and not outer.stable:
+            return replace(verdict, certain=True)
+    return verdict
+
+
+def _certain(core: _core.Verdict, scene: Scene, cone: str) -> bool:
+    if scene.dimension == 2 or core.status != "solved":
+        return True
+    frictionless = scene._core.largest_friction() == 0.0
+    return frictionless or core.stable == (cone == CONES[0])
 
 
 def counted(number: int, thing: str) -> str:

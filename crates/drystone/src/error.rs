@@ -53,6 +53,12 @@ pub enum SceneError {
         /// The block's name.
         body: String,
     },
+    /// Something that is only there for the plane.
+    #[error("this is a scene in space: it takes one in the plane, of dimension 2")]
+    NotInPlane,
+    /// Something that is only there for space.
+    #[error("this is a scene in the plane: it takes one in space, of dimension 3")]
+    NotInSpace,
     /// A friction cone with less than three edges.
     #[error("facets is {facets}: a friction cone in space has at least 3")]
     TooFewFacets {
@@ -208,7 +214,7 @@ pub enum FileError {
         supported: u64,
     },
     /// A dimension this library does not know.
-    #[error("{file}: \"dimension\" is {found}: this library reads scenes of dimension 2")]
+    #[error("{file}: \"dimension\" is {found}: give 2 for the plane or 3 for space")]
     UnsupportedDimension {
         /// The file.
         file: String,

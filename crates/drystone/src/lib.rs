@@ -16,6 +16,7 @@
 //!
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
 
+mod any_scene;
 pub mod check;
 pub mod contact;
 pub mod error;
@@ -30,6 +31,7 @@ pub mod simulate;
 pub mod structure;
 mod suggest;
 
+pub use any_scene::AnyScene;
 pub use check::{Verdict, check};
 pub use contact::{Contact, ContactId, ContactSet, Feature, find_contacts};
 pub use error::{FileError, SceneError};

@@ -88,6 +88,7 @@ fn swapped(feature: Feature) -> Feature {
         Feature::Faces { a, b, end } => Feature::Faces { a: b, b: a, end: 1 - end },
         Feature::CornerOfA { a, b } => Feature::CornerOfB { a: b, b: a },
         Feature::CornerOfB { a, b } => Feature::CornerOfA { a: b, b: a },
+        Feature::Solids { a, b } => Feature::Solids { a: b, b: a },
     }
 }
 

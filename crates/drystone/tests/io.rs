@@ -1,7 +1,7 @@
 //! Scene files: exact round trips, errors that say file, place and fix, whole writes.
 
 use drystone::geometry::Pose;
-use drystone::{BodyOptions, FileError, Scene, SceneError, io, scenes};
+use drystone::{AnyScene, BodyOptions, FileError, Scene, SceneError, io, scenes};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -9,6 +9,10 @@ use std::fs;
 use std::path::PathBuf;
 
 const SOURCE: &str = "wall.json";
+
+fn text_of(scene: &Scene) -> String {
+    AnyScene::from(scene.clone()).to_json()
+}
 
 fn error_of(text: &str) -> FileError {
     match io::from_json(text, SOURCE) {
@@ -25,6 +29,11 @@ fn with_bodies(bodies: &str) -> String {
     )
 }
 
+/// The same in space.
+fn with_solids(bodies: &str) -> String {
+    with_bodies(bodies).replace("\"dimension\": 2", "\"dimension\": 3").replace("[0, -9.81]", "[0, 0, -9.81]")
+}
+
 /// A new folder of this test's own.
 fn folder(test: &str) -> PathBuf {
     let path = std::env::temp_dir().join(format!("drystone-{}-{test}", std::process::id()));
@@ -36,10 +45,10 @@ fn folder(test: &str) -> PathBuf {
 fn every_built_in_scene_comes_back_as_it_was() {
     for entry in scenes::catalogue() {
         let scene = scenes::build(entry.name, &BTreeMap::new()).unwrap();
-        let text = io::to_json(&scene);
+        let text = scene.to_json();
         let again = io::from_json(&text, SOURCE).unwrap();
         assert_eq!(again, scene, "{}", entry.name);
-        assert_eq!(io::to_json(&again), text);
+        assert_eq!(again.to_json(), text);
     }
 }
 
@@ -50,16 +59,16 @@ fn all_fields_come_back() {
         BodyOptions { name: Some("\"quoted\" \u{fc}ber\n".into()), density: 2400.0, friction: Some(0.0), fixed: true };
     scene.add_box([-0.0, 1.0 / 3.0], [1e-300_f64.sqrt(), 1e150], 1e-17, options).unwrap();
     scene.add_polygon(&[[1e6, 0.1], [1e6 + 1.0, 0.3], [1e6, 1.7]], BodyOptions::default()).unwrap();
-    let text = io::to_json(&scene);
+    let text = text_of(&scene);
     let again = io::from_json(&text, SOURCE).unwrap();
-    assert_eq!(again, scene);
-    assert_eq!(io::to_json(&again), text, "also the sign of zero");
+    assert_eq!(again, AnyScene::from(scene.clone()));
+    assert_eq!(again.to_json(), text, "also the sign of zero");
 }
 
 #[test]
 fn an_empty_scene_comes_back() {
     let scene = Scene::new([0.0, 0.0], 0.0).unwrap();
-    assert_eq!(io::from_json(&io::to_json(&scene), SOURCE).unwrap(), scene);
+    assert_eq!(io::from_json(&text_of(&scene), SOURCE).unwrap(), scene.into());
 }
 
 proptest! {
@@ -75,15 +84,15 @@ proptest! {
         let mut scene = Scene::new([0.0, -9.81], 0.5).unwrap();
         scene.add_placed_polygon(&corners, frame, options.clone()).unwrap();
         scene.add_polygon(&corners.map(|[a, b]| [x + a, y + b]), options).ok();
-        let again = io::from_json(&io::to_json(&scene), SOURCE).unwrap();
-        prop_assert_eq!(again, scene);
+        let again = io::from_json(&text_of(&scene), SOURCE).unwrap();
+        prop_assert_eq!(again, AnyScene::from(scene.clone()));
     }
 }
 
 #[test]
 fn fields_left_out_take_their_defaults() {
     let text = with_bodies(r#"{"box": {"size": [1, 2]}}, {"box": {"size": [1, 1]}}"#);
-    let scene = io::from_json(&text, SOURCE).unwrap();
+    let scene = io::from_json(&text, SOURCE).unwrap().in_plane().unwrap();
     let body = &scene.bodies()[0];
     assert_eq!((body.name.as_str(), body.density, body.friction), ("b0", 1.0, None));
     assert_eq!(body.pose, Pose { position: [0.0, 0.0], angle: 0.0 });
@@ -97,12 +106,29 @@ fn a_polygon_given_off_its_centroid_stands_where_the_file_says() {
         r#"{"polygon": {"vertices": [[0, 0], [2, 0], [2, 2], [0, 2]]},
             "position": [10, 0], "angle": 1.5707963267948966}"#,
     );
-    let scene = io::from_json(&text, SOURCE).unwrap();
+    let scene = io::from_json(&text, SOURCE).unwrap().in_plane().unwrap();
     let body = &scene.bodies()[0];
     // The centroid (1, 1) turned by a quarter is (-1, 1).
     assert!((body.pose.position[0] - 9.0).abs() < 1e-15 * 10.0);
     assert!((body.pose.position[1] - 1.0).abs() < 1e-15);
     assert_eq!(body.mass(), 4.0);
+}
+
+#[test]
+fn solids_come_back() {
+    let text = with_solids(
+        r#"{"solid": {"pieces": [{"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [0.1, 0.1, 0.1]]}]},
+            "position": [3, 4, 5], "orientation": [1, 2, 3, 4]}, {"box": {"size": [1, 2, 3]}}"#,
+    );
+    let scene = io::from_json(&text, SOURCE).unwrap();
+    let written = scene.to_json();
+    let again = io::from_json(&written, SOURCE).unwrap();
+    assert_eq!(again, scene);
+    assert_eq!(again.to_json(), written);
+    let solid = &scene.in_space().unwrap().bodies()[0].clone();
+    assert!((solid.mass() - 1.0 / 6.0).abs() < 1e-15);
+    let turned = solid.pose.transform(drystone::geometry::Vector3::splat(-0.25));
+    assert!(turned.distance(drystone::geometry::Vector3::new(3.0, 4.0, 5.0)) < 1e-14);
 }
 
 #[test]
@@ -155,8 +181,10 @@ fn another_format_version_or_dimension_is_refused_first() {
     let good = with_bodies("");
     let newer = good.replace("\"version\": 1", "\"version\": 2").replace("\"friction\"", "\"mu\"");
     assert!(matches!(error_of(&newer), FileError::UnsupportedVersion { supported: 1, .. }));
-    let space = good.replace("\"dimension\": 2", "\"dimension\": 3");
-    assert!(matches!(error_of(&space), FileError::UnsupportedDimension { .. }));
+    let hyperspace = good.replace("\"dimension\": 2", "\"dimension\": 4");
+    assert!(matches!(error_of(&hyperspace), FileError::UnsupportedDimension { .. }));
+    let mixed = good.replace("\"dimension\": 2", "\"dimension\": 3");
+    assert!(matches!(error_of(&mixed), FileError::WrongType { .. }));
     for text in ["[]", "{}", "3", r#"{"format": "something"}"#] {
         assert!(matches!(error_of(text), FileError::WrongFormat { .. }), "{text}");
     }
@@ -164,7 +192,7 @@ fn another_format_version_or_dimension_is_refused_first() {
 
 #[test]
 fn a_file_cut_anywhere_is_an_error() {
-    let text = io::to_json(&scenes::five_blocks(0.0).unwrap());
+    let text = text_of(&scenes::five_blocks(0.0).unwrap());
     let document = text.trim_end();
     for end in 0..document.len() {
         let error = error_of(&document[..end]);
@@ -188,8 +216,8 @@ fn saving_replaces_a_file_and_leaves_nothing_else() {
     let path = folder.join("scene.json");
     let scene = scenes::five_blocks(0.0).unwrap();
     fs::write(&path, "old").unwrap();
-    io::save(&scene, &path).unwrap();
-    assert_eq!(io::load(&path).unwrap(), scene);
+    io::save(&scene.clone().into(), &path).unwrap();
+    assert_eq!(io::load(&path).unwrap(), scene.clone().into());
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     fs::remove_dir_all(folder).unwrap();
 }
@@ -200,12 +228,12 @@ fn a_failed_save_leaves_nothing_half_written() {
     // The name is taken by a folder that is not empty, so the last step must fail.
     let path = folder.join("scene.json");
     fs::create_dir_all(path.join("inside")).unwrap();
-    let error = io::save(&scenes::five_blocks(0.0).unwrap(), &path).unwrap_err();
+    let error = io::save(&scenes::five_blocks(0.0).unwrap().into(), &path).unwrap_err();
     assert!(matches!(&error, SceneError::File(FileError::Write { .. })), "{error}");
     assert!(path.join("inside").is_dir());
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     let nowhere = folder.join("missing").join("scene.json");
-    assert!(io::save(&scenes::five_blocks(0.0).unwrap(), nowhere).is_err());
+    assert!(io::save(&scenes::five_blocks(0.0).unwrap().into(), nowhere).is_err());
     fs::remove_dir_all(folder).unwrap();
 }
 
@@ -232,13 +260,16 @@ fn allowed(text: &str) -> Vec<String> {
 fn the_schema_knows_the_fields_that_are_read_and_written() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene.schema.json");
     let schema: Value = serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-    let body = &schema["$defs"]["body"];
+    let bodies = [&schema["$defs"]["body"], &schema["$defs"]["bodyInSpace"]];
     let top = with_bodies("").replacen('{', r#"{"other": 0,"#, 1);
     assert_eq!(allowed(&top), properties(&schema));
-    assert_eq!(allowed(&with_bodies(r#"{"other": 0}"#)), properties(body));
-    for shape in ["box", "polygon"] {
-        let text = with_bodies(&format!(r#"{{"{shape}": {{"other": 0}}}}"#));
-        assert_eq!(allowed(&text), properties(&body["properties"][shape]));
+    for (body, shapes, dimension) in [(bodies[0], ["box", "polygon"], 2), (bodies[1], ["box", "solid"], 3)] {
+        let text = |of: &str| if dimension == 2 { with_bodies(of) } else { with_solids(of) };
+        assert_eq!(allowed(&text(r#"{"other": 0}"#)), properties(body));
+        for shape in shapes {
+            let text = text(&format!(r#"{{"{shape}": {{"other": 0}}}}"#));
+            assert_eq!(allowed(&text), properties(&body["properties"][shape]));
+        }
     }
     let required = |document: &Value| {
         let names = schema["required"].as_array().unwrap();
@@ -246,14 +277,14 @@ fn the_schema_knows_the_fields_that_are_read_and_written() {
     };
     for entry in scenes::catalogue() {
         let scene = scenes::build(entry.name, &BTreeMap::new()).unwrap();
-        let document: Value = serde_json::from_str(&io::to_json(&scene)).unwrap();
+        let document: Value = serde_json::from_str(&scene.to_json()).unwrap();
         assert!(required(&document));
         for name in document.as_object().unwrap().keys() {
             assert!(properties(&schema).contains(name), "{name}");
         }
         for one in document["bodies"].as_array().unwrap() {
             for name in one.as_object().unwrap().keys() {
-                assert!(properties(body).contains(name), "{name}");
+                assert!(properties(bodies[scene.dimension() - 2]).contains(name), "{name}");
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The built-in scenes: what they are made of, derived from their definitions.
 
-use drystone::{Body, Scene, SceneError, check, find_contacts, scenes};
+use drystone::{Body, Scene, SceneError, check, find_contacts, formulate::Cones, scenes};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -207,12 +207,12 @@ fn the_registry_builds_every_scene_with_its_defaults() {
     assert!(names.is_sorted());
     for name in names {
         let scene = scenes::build(name, &BTreeMap::new()).unwrap();
-        find_contacts(&scene).unwrap();
+        scene.assembly(Cones::default()).unwrap();
     }
     let given = parameters(&[("n", json!(7)), ("friction", json!(0.25))]);
-    assert_eq!(scenes::build("column", &given).unwrap(), scenes::column(7, 0.25).unwrap());
+    assert_eq!(scenes::build("column", &given).unwrap(), scenes::column(7, 0.25).unwrap().into());
     let whole = parameters(&[("n", json!(7.0))]);
-    assert_eq!(scenes::build("column", &whole).unwrap(), scenes::column(7, 0.0).unwrap());
+    assert_eq!(scenes::build("column", &whole).unwrap(), scenes::column(7, 0.0).unwrap().into());
 }
 
 #[test]

@@ -240,7 +240,7 @@ fn energy_never_grows() {
 fn what_stands_still_keeps_its_place_to_the_bit() {
     for (dt, count) in [(1.0 / 240.0, 1200), (1e-3, 5000)] {
         for (name, still) in [("col20", 21), ("col50", 51), ("pyr13", 92), ("fall7", 6), ("wall84", 85)] {
-            let scene = scenes::build(name, &std::collections::BTreeMap::new()).unwrap();
+            let scene = scenes::build(name, &std::collections::BTreeMap::new()).unwrap().in_plane().unwrap();
             let mut world = world(scene, dt);
             let start: Vec<_> = world.poses().take(still).collect();
             for step in 0..count {

@@ -5,6 +5,7 @@ use drystone::{
     contact::find_solid_contacts,
     formulate::{Assembly, BlockSet, Bound, Cones},
     geometry::{Polyhedron, PoseInSpace, Shape, Solid, SolidFault, Vector3},
+    scenes,
 };
 
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -123,9 +124,9 @@ fn corners_edges_and_crossing_edges_touch() {
 /// edge of each cone points down it.
 #[test]
 fn a_slope_holds_up_to_the_angle_of_friction() {
-    for facing in [0.0, 0.3, 1.1, 2.9] {
+    for facing in [0.0_f64, 0.3, 1.1, 2.9] {
         for (degrees, stands) in [(39.0_f64, true), (40.0, true), (40.06, false), (41.0, false)] {
-            let (sin, cos) = (facing as f64).sin_cos();
+            let (sin, cos) = facing.sin_cos();
             let tilt = turned([sin, cos, 0.0], degrees.to_radians());
             let frame = PoseInSpace { position: [0.3, -0.2, 0.1], orientation: tilt };
             let placed = |height: f64| PoseInSpace {
@@ -215,5 +216,38 @@ fn a_part_is_a_principal_part_in_space_too() {
         let complementarity = complementarity.unwrap().unwrap();
         assert_eq!((verdict.stable, verdict.stable), (complementarity.stable, set.len() <= 6));
         assert!(verdict.residual <= 1e-9 && complementarity.residual <= 1e-9);
+    }
+}
+
+/// The verdict of a planar scene and of the same with a thickness, on random stacks of which some have lost blocks.
+#[test]
+fn an_extruded_scene_has_the_planar_verdict() {
+    let mut seen = [0, 0];
+    for seed in 0..200 {
+        let friction = [0.0, 0.2, 0.5][seed as usize % 3];
+        let scene = scenes::random_stack(4 + seed as usize % 14, seed, friction).unwrap();
+        let solid = scenes::extruded(&scene, 0.7).unwrap();
+        let names: Vec<String> =
+            scene.bodies().iter().filter(|body| !body.fixed).map(|body| body.name.clone()).collect();
+        // A third of the blocks is left out, a different one each time.
+        let some: Vec<String> =
+            names.iter().enumerate().filter(|(k, _)| (k + seed as usize) % 3 > 0).map(|(_, n)| n.clone()).collect();
+        for part in [&names, &some] {
+            let planar = check(&scene, Some(part)).unwrap();
+            let spatial = check(&solid, Some(part)).unwrap();
+            assert_eq!((planar.stable, &planar.falling), (spatial.stable, &spatial.falling), "seed {seed}, {part:?}");
+            seen[usize::from(planar.stable)] += 1;
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 50), "{seen:?}");
+}
+
+/// Arches lean, their voussoirs are no boxes, and their thrust needs friction.
+#[test]
+fn an_extruded_arch_has_the_planar_verdict() {
+    for (voussoirs, thickness, friction) in [(21, 0.2, 0.6), (21, 0.09, 0.6), (21, 0.2, 0.2), (41, 0.109, 0.7)] {
+        let scene = scenes::arch(voussoirs, thickness, friction).unwrap();
+        let solid = scenes::extruded(&scene, 0.5).unwrap();
+        assert_eq!(check(&scene, None).unwrap().stable, check(&solid, None).unwrap().stable, "{voussoirs} {thickness}");
     }
 }

@@ -2,10 +2,10 @@
 
 use crate::{
     arrays::{matrix, vector},
-    errors::{plan_error, scene_error},
+    errors::plan_error,
     scene::Scene,
 };
-use drystone::{formulate::Assembly, plan as core};
+use drystone::plan as core;
 use numpy::{PyArray1, PyArray2};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::time::{Duration, Instant};
@@ -45,20 +45,21 @@ impl Gathered {
 const PERIOD: Duration = Duration::from_millis(100);
 
 #[pyfunction]
-#[pyo3(signature = (scene, order, every=1, progress=None))]
+#[pyo3(signature = (scene, order, every=1, progress=None, cones=None))]
 pub fn forces_along(
     py: Python<'_>,
     scene: &Scene,
     order: Vec<String>,
     every: usize,
     progress: Option<Py<PyAny>>,
+    cones: Option<(usize, String)>,
 ) -> PyResult<StructureForces> {
     if every == 0 {
         return Err(PyValueError::new_err("every must be one or more"));
     }
     let mut gathered = Gathered { offsets: vec![0], ..Gathered::default() };
     let (mut last, mut stopped) = (Instant::now(), None);
-    let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
+    let assembly = scene.assembly(py, cones)?;
     py.detach(|| {
         let blocks = assembly.named(&order)?;
         let wanted = |placed: usize| (blocks.len() - placed).is_multiple_of(every);

@@ -22,6 +22,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     errors::add_to(module)?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<scene::Body>()?;
+    module.add_class::<scene::Solid>()?;
     module.add_class::<scene::Contact>()?;
     module.add_class::<verdict::ContactForce>()?;
     module.add_class::<verdict::Verdict>()?;

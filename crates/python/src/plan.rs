@@ -1,12 +1,6 @@
 //! `plan`, with the stability tests of the core or one from Python.
 
-use crate::{
-    arrays::vector,
-    errors::{plan_error, scene_error},
-    scene::Scene,
-    verdict::Verdict,
-    watch::Watch,
-};
+use crate::{arrays::vector, errors::plan_error, scene::Scene, verdict::Verdict, watch::Watch};
 use drystone::{
     formulate::{Assembly, BlockSet},
     plan::{self as core, Limits, PlanError, StabilityTest, Test, TestOutcome},
@@ -56,8 +50,9 @@ pub struct Generators {
 }
 
 #[pyfunction]
-pub fn generators(py: Python<'_>, scene: &Scene) -> PyResult<Generators> {
-    let assembly = Assembly::new(&scene.core).map_err(|error| scene_error(&error))?;
+#[pyo3(signature = (scene, cones=None))]
+pub fn generators(py: Python<'_>, scene: &Scene, cones: Option<(usize, String)>) -> PyResult<Generators> {
+    let assembly = scene.assembly(py, cones)?;
     let (mut indptr, mut indices, mut data) = (vec![0_i64], Vec::new(), Vec::new());
     let (mut bodies, components) = (Vec::new(), assembly.components());
     for generator in assembly.generators() {
@@ -104,7 +99,7 @@ impl StabilityTest for Callback {
 
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // those of the Python function
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None))]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -114,13 +109,14 @@ pub fn plan(
     progress: Option<Py<PyAny>>,
     shortcuts: bool,
     threads: Option<usize>,
+    cones: Option<(usize, String)>,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
     let mut watch = Watch::new(progress);
     let start = Instant::now();
-    let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
+    let assembly = scene.assembly(py, cones)?;
     let contacts = start.elapsed();
     let planned = if test.is_callable() {
         let mut test = Callback { function: test.clone().unbind() };
@@ -173,7 +169,7 @@ fn to_python(py: Python<'_>, assembly: &Assembly, plan: &core::Plan, contacts: D
 /// Every sub-assembly of a small scene with the verdict on it.
 #[pyfunction]
 pub fn disassembly_graph(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(Vec<String>, bool)>> {
-    let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
+    let assembly = scene.assembly(py, None)?;
     let nodes = py.detach(|| core::disassembly_graph(&assembly)).map_err(plan_error)?;
     let name = |&index: &usize| assembly.bodies()[index].name.clone();
     Ok(nodes.iter().map(|node| (node.bodies.iter().map(name).collect(), node.stands)).collect())

@@ -1,11 +1,6 @@
 //! `Recording`: the stability tests of one search, to put to other methods.
 
-use crate::{
-    errors::{plan_error, scene_error},
-    plan::Callback,
-    scene::Scene,
-    watch::PERIOD,
-};
+use crate::{errors::plan_error, plan::Callback, scene::Scene, watch::PERIOD};
 use drystone::{
     formulate::{Assembly, BlockSet},
     plan::{
@@ -46,7 +41,7 @@ impl Recording {
     /// `test` is a callable as in `plan`.
     #[new]
     fn new(py: Python<'_>, scene: &Scene, test: Py<PyAny>) -> PyResult<Self> {
-        let assembly = Assembly::new(&scene.core).map_err(|error| scene_error(&error))?;
+        let assembly = scene.assembly(py, None)?;
         let limits = Limits { shortcuts: false, ..Limits::default() };
         let mut test = Recorder::new(Callback { function: test });
         py.detach(|| core::plan_with(&assembly, &mut test, limits, &mut Quiet)).map_err(raised)?;

@@ -1,17 +1,28 @@
 //! `Scene` and what it shows of itself.
 
 use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error};
-use drystone::{BodyOptions, Scene as CoreScene, find_contacts, io, scenes};
+use drystone::{
+    AnyScene, BodyOptions, SceneError, SceneOf,
+    contact::find_solid_contacts,
+    find_contacts,
+    formulate::{self, Assembly, Cones},
+    geometry::{PoseInSpace, Shape},
+    io, scenes,
+};
 use numpy::PyArray2;
-use pyo3::{exceptions::PyTypeError, prelude::*, types::PyDict};
+use pyo3::{
+    exceptions::{PyTypeError, PyValueError},
+    prelude::*,
+    types::PyDict,
+};
 use std::collections::BTreeMap;
 
 #[pyclass(module = "drystone._core")]
 pub struct Scene {
-    pub core: CoreScene,
+    pub core: AnyScene,
 }
 
-/// A snapshot of one body. `vertices` is (n, 2) in world coordinates, metres, counter-clockwise.
+/// A snapshot of one body in the plane. `vertices` is (n, 2) in world coordinates, metres, counter-clockwise.
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct Body {
     name: String,
@@ -22,6 +33,25 @@ pub struct Body {
     inertia: f64,
     centroid: (f64, f64),
     angle: f64,
+    vertices: Py<PyArray2<f64>>,
+}
+
+/// Corners of a convex piece, and the faces as lists of them.
+type Piece = (Py<PyArray2<f64>>, Vec<Vec<usize>>);
+
+/// A snapshot of one body in space; see the stub.
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct Solid {
+    name: String,
+    fixed: bool,
+    density: f64,
+    friction: f64,
+    mass: f64,
+    inertia: Py<PyArray2<f64>>,
+    centroid: (f64, f64, f64),
+    orientation: (f64, f64, f64, f64),
+    box_size: Option<(f64, f64, f64)>,
+    pieces: Vec<Piece>,
     vertices: Py<PyArray2<f64>>,
 }
 
@@ -41,18 +71,59 @@ pub fn options(name: Option<String>, density: f64, friction: Option<f64>, fixed:
     BodyOptions { name, density, friction, fixed }
 }
 
+fn raised<T>(result: Result<T, SceneError>) -> PyResult<T> {
+    result.map_err(|error| scene_error(&error))
+}
+
+/// Friction cones by the name of their bound; without a choice the default ones.
+fn cones(choice: Option<(usize, String)>) -> PyResult<Cones> {
+    let Some((facets, bound)) = choice else { return Ok(Cones::default()) };
+    let bound = match bound.as_str() {
+        "inscribed" => formulate::Bound::Inscribed,
+        "circumscribed" => formulate::Bound::Circumscribed,
+        other => {
+            let message = format!("unknown cone \"{other}\": give \"inscribed\" or \"circumscribed\"");
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    Ok(Cones { facets, bound })
+}
+
 impl Scene {
-    fn name_of(&self, index: usize) -> String {
-        self.core.bodies()[index].name.clone()
+    /// The contacts and generators, found without holding Python's lock.
+    pub fn assembly(&self, py: Python<'_>, friction_cones: Option<(usize, String)>) -> PyResult<Assembly> {
+        let cones = cones(friction_cones)?;
+        raised(py.detach(|| self.core.assembly(cones)))
     }
 
-    fn body_at(&self, py: Python<'_>, index: usize) -> PyResult<Body> {
-        let body = &self.core.bodies()[index];
-        Ok(Body {
+    /// The scene, if it is in the plane.
+    pub fn planar(&self) -> PyResult<drystone::Scene> {
+        raised(self.core.clone().in_plane())
+    }
+
+    fn body_at(&self, py: Python<'_>, index: usize) -> PyResult<Py<PyAny>> {
+        match &self.core {
+            AnyScene::Plane(scene) => Ok(Py::new(py, Body::of(py, scene, index)?)?.into_any()),
+            AnyScene::Space(scene) => Ok(Py::new(py, Solid::of(py, scene, index)?)?.into_any()),
+        }
+    }
+
+    fn found(&self) -> PyResult<drystone::ContactSet> {
+        raised(match &self.core {
+            AnyScene::Plane(scene) => find_contacts(scene),
+            AnyScene::Space(scene) => find_solid_contacts(scene),
+        })
+    }
+}
+
+impl Body {
+    fn of(py: Python<'_>, scene: &drystone::Scene, index: usize) -> PyResult<Self> {
+        let body = &scene.bodies()[index];
+        Ok(Self {
             name: body.name.clone(),
             fixed: body.fixed,
             density: body.density,
-            friction: body.friction.unwrap_or(self.core.friction()),
+            friction: body.friction.unwrap_or(scene.friction()),
             mass: body.mass(),
             inertia: body.inertia(),
             centroid: body.pose.position.into(),
@@ -62,27 +133,76 @@ impl Scene {
     }
 }
 
+impl Solid {
+    fn of(py: Python<'_>, scene: &drystone::SceneInSpace, index: usize) -> PyResult<Self> {
+        let body = &scene.bodies()[index];
+        let axes = body.shape.principal_axes().map(|axis| body.pose.rotate(axis));
+        let moments = body.shape.moments();
+        let entry = |i: usize, j: usize| (0..3).map(|k| body.density * moments[k] * axes[k][i] * axes[k][j]).sum();
+        let inertia: [[f64; 3]; 3] = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
+        let piece = |piece: &drystone::geometry::Polyhedron| -> PyResult<Piece> {
+            let vertices: Vec<[f64; 3]> = piece.vertices().iter().map(|v| v.to_array()).collect();
+            Ok((matrix(py, &vertices)?.unbind(), piece.faces().to_vec()))
+        };
+        Ok(Self {
+            name: body.name.clone(),
+            fixed: body.fixed,
+            density: body.density,
+            friction: body.friction.unwrap_or(scene.friction()),
+            mass: body.mass(),
+            inertia: matrix(py, &inertia)?.unbind(),
+            centroid: body.pose.position.into(),
+            orientation: body.pose.orientation.into(),
+            box_size: body.box_size.map(Into::into),
+            pieces: body.shape.pieces().iter().map(piece).collect::<PyResult<_>>()?,
+            vertices: matrix(py, &body.corners())?.unbind(),
+        })
+    }
+}
+
+/// An empty scene with or without a tolerance of its own.
+fn empty<S: Shape>(gravity: S::Vector, friction: f64, tolerance: Option<f64>) -> Result<SceneOf<S>, SceneError> {
+    let scene = SceneOf::new(gravity, friction)?;
+    match tolerance {
+        Some(tolerance) => scene.with_contact_tolerance(tolerance),
+        None => Ok(scene),
+    }
+}
+
 #[pymethods]
 impl Scene {
+    /// `gravity` has two numbers in the plane, three in space.
     #[new]
     #[pyo3(signature = (gravity, friction, contact_tolerance=None))]
-    fn new(gravity: [f64; 2], friction: f64, contact_tolerance: Option<f64>) -> PyResult<Self> {
-        let scene = CoreScene::new(gravity, friction);
-        let scene = match contact_tolerance {
-            Some(tolerance) => scene.and_then(|scene| scene.with_contact_tolerance(tolerance)),
-            None => scene,
+    fn new(gravity: Vec<f64>, friction: f64, contact_tolerance: Option<f64>) -> PyResult<Self> {
+        let core = match gravity[..] {
+            [x, y] => raised(empty([x, y], friction, contact_tolerance).map(AnyScene::Plane)),
+            [x, y, z] => raised(empty([x, y, z], friction, contact_tolerance).map(AnyScene::Space)),
+            _ => Err(PyTypeError::new_err("gravity has two numbers in the plane, three in space")),
         };
-        Ok(Self { core: scene.map_err(|error| scene_error(&error))? })
+        Ok(Self { core: core? })
     }
 
     #[getter]
-    fn gravity(&self) -> (f64, f64) {
-        self.core.gravity().into()
+    fn dimension(&self) -> usize {
+        self.core.dimension()
+    }
+
+    #[getter]
+    fn gravity(&self) -> Coordinates {
+        match &self.core {
+            AnyScene::Plane(scene) => scene.gravity().into(),
+            AnyScene::Space(scene) => Coordinates::of(scene.gravity(), false),
+        }
     }
 
     #[getter]
     fn friction(&self) -> f64 {
         self.core.friction()
+    }
+
+    fn largest_friction(&self) -> f64 {
+        self.core.largest_friction()
     }
 
     #[getter]
@@ -101,8 +221,9 @@ impl Scene {
         friction: Option<f64>,
         fixed: bool,
     ) -> PyResult<String> {
-        let added = self.core.add_box(center, size, angle, options(name, density, friction, fixed));
-        added.map(|index| self.name_of(index)).map_err(|error| scene_error(&error))
+        let AnyScene::Plane(scene) = &mut self.core else { return raised(Err(SceneError::NotInPlane)) };
+        let added = scene.add_box(center, size, angle, options(name, density, friction, fixed));
+        raised(added.map(|index| scene.bodies()[index].name.clone()))
     }
 
     fn add_polygon(
@@ -113,48 +234,88 @@ impl Scene {
         friction: Option<f64>,
         fixed: bool,
     ) -> PyResult<String> {
-        let added = self.core.add_polygon(&vertices, options(name, density, friction, fixed));
-        added.map(|index| self.name_of(index)).map_err(|error| scene_error(&error))
+        let AnyScene::Plane(scene) = &mut self.core else { return raised(Err(SceneError::NotInPlane)) };
+        let added = scene.add_polygon(&vertices, options(name, density, friction, fixed));
+        raised(added.map(|index| scene.bodies()[index].name.clone()))
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn add_cuboid(
+        &mut self,
+        center: [f64; 3],
+        size: [f64; 3],
+        orientation: [f64; 4],
+        name: Option<String>,
+        density: f64,
+        friction: Option<f64>,
+        fixed: bool,
+    ) -> PyResult<String> {
+        let AnyScene::Space(scene) = &mut self.core else { return raised(Err(SceneError::NotInSpace)) };
+        let pose = PoseInSpace { position: center, orientation };
+        let added = scene.add_cuboid(pose, size, options(name, density, friction, fixed));
+        raised(added.map(|index| scene.bodies()[index].name.clone()))
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn add_solid(
+        &mut self,
+        pieces: Vec<Vec<[f64; 3]>>,
+        position: [f64; 3],
+        orientation: [f64; 4],
+        name: Option<String>,
+        density: f64,
+        friction: Option<f64>,
+        fixed: bool,
+    ) -> PyResult<String> {
+        let AnyScene::Space(scene) = &mut self.core else { return raised(Err(SceneError::NotInSpace)) };
+        let pose = PoseInSpace { position, orientation };
+        let added = scene.add_solid(&pieces, pose, options(name, density, friction, fixed));
+        raised(added.map(|index| scene.bodies()[index].name.clone()))
+    }
+
+    /// The same scene in space, every block with this thickness.
+    fn extruded(&self, depth: f64) -> PyResult<Self> {
+        let solid = raised(scenes::extruded(&self.planar()?, depth))?;
+        Ok(Self { core: solid.into() })
     }
 
     fn __len__(&self) -> usize {
-        self.core.bodies().len()
+        self.core.len()
     }
 
     fn names(&self) -> Vec<String> {
-        self.core.bodies().iter().map(|body| body.name.clone()).collect()
+        (0..self.core.len()).map(|index| self.core.name(index).to_owned()).collect()
     }
 
-    fn body(&self, py: Python<'_>, name: &str) -> PyResult<Body> {
-        let index = self.core.index_of(name).map_err(|error| scene_error(&error))?;
-        self.body_at(py, index)
+    fn body(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
+        self.body_at(py, raised(self.core.index_of(name))?)
     }
 
-    fn bodies(&self, py: Python<'_>) -> PyResult<Vec<Body>> {
-        (0..self.core.bodies().len()).map(|index| self.body_at(py, index)).collect()
+    fn bodies(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
+        (0..self.core.len()).map(|index| self.body_at(py, index)).collect()
     }
 
     fn contacts(&self) -> PyResult<Vec<Contact>> {
-        let found = find_contacts(&self.core).map_err(|error| scene_error(&error))?;
+        let in_plane = self.core.dimension() == 2;
         let contact = |c: drystone::Contact| Contact {
-            a: self.name_of(c.bodies[0]),
-            b: self.name_of(c.bodies[1]),
+            a: self.core.name(c.bodies[0]).to_owned(),
+            b: self.core.name(c.bodies[1]).to_owned(),
             feature: c.id.feature.to_string(),
-            point: Coordinates::of(c.point, true),
-            normal: Coordinates::of(c.normal, true),
+            point: Coordinates::of(c.point, in_plane),
+            normal: Coordinates::of(c.normal, in_plane),
             gap: c.gap,
             friction: c.friction,
         };
-        Ok(found.contacts.into_iter().map(contact).collect())
+        Ok(self.found()?.contacts.into_iter().map(contact).collect())
     }
 
     fn corner_touches(&self) -> PyResult<Vec<(String, String)>> {
-        let found = find_contacts(&self.core).map_err(|error| scene_error(&error))?;
-        Ok(found.corner_touches.into_iter().map(|[a, b]| (self.name_of(a), self.name_of(b))).collect())
+        let name = |index: usize| self.core.name(index).to_owned();
+        Ok(self.found()?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
     }
 
     fn to_json(&self) -> String {
-        io::to_json(&self.core)
+        self.core.to_json()
     }
 
     fn save(&self, path: &str) -> PyResult<()> {

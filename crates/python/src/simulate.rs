@@ -84,7 +84,7 @@ impl World {
     #[new]
     fn new(scene: &Scene, dt: f64, reuse: &str, restitution: f64) -> PyResult<Self> {
         let options = Options { dt, reuse: named_reuse(reuse)?, restitution };
-        Ok(Self { core: raised(core::World::new(scene.core.clone(), options))? })
+        Ok(Self { core: raised(core::World::new(scene.planar()?, options))? })
     }
 
     fn step(&mut self, py: Python<'_>) -> PyResult<StepRecord> {
@@ -107,7 +107,7 @@ impl World {
 
     #[getter]
     fn scene(&self) -> Scene {
-        Scene { core: self.core.scene().clone() }
+        Scene { core: self.core.scene().clone().into() }
     }
 
     #[getter]

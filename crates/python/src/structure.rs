@@ -1,11 +1,7 @@
 //! `Structure`: a live structure that blocks are put on and taken off.
 
-use crate::{
-    errors::{no_answer, scene_error},
-    scene::Scene,
-    verdict::Verdict,
-};
-use drystone::{Structure as Core, formulate::Assembly};
+use crate::{errors::no_answer, scene::Scene, verdict::Verdict};
+use drystone::Structure as Core;
 use pyo3::prelude::*;
 use std::time::Instant;
 
@@ -21,8 +17,9 @@ pub struct Structure {
 #[pymethods]
 impl Structure {
     #[new]
-    fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        let assembly = py.detach(|| Assembly::new(&scene.core)).map_err(|error| scene_error(&error))?;
+    #[pyo3(signature = (scene, cones=None))]
+    fn new(py: Python<'_>, scene: &Scene, cones: Option<(usize, String)>) -> PyResult<Self> {
+        let assembly = scene.assembly(py, cones)?;
         let start = Instant::now();
         let core = Core::of(assembly);
         Ok(Self { core, set_up_seconds: start.elapsed().as_secs_f64() })

@@ -97,8 +97,14 @@ impl Verdict {
 }
 
 #[pyfunction]
-#[pyo3(signature = (scene, blocks=None, method="equilibrium"))]
-pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>, method: &str) -> PyResult<Verdict> {
+#[pyo3(signature = (scene, blocks=None, method="equilibrium", cones=None))]
+pub fn check(
+    py: Python<'_>,
+    scene: &Scene,
+    blocks: Option<Vec<String>>,
+    method: &str,
+    cones: Option<(usize, String)>,
+) -> PyResult<Verdict> {
     let route = match method {
         "equilibrium" => Route::Equilibrium,
         "lcp" => Route::Complementarity,
@@ -109,13 +115,9 @@ pub fn check(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>, method:
     };
     let start = Instant::now();
     let mut watch = Watch::new(None);
-    let checked = py.detach(|| {
-        let assembly = Assembly::new(&scene.core)?;
-        let verdict = check_while(&assembly, blocks.as_deref(), route, &mut |_| watch.no_interrupt())?;
-        Ok((assembly, verdict))
-    });
-    let (assembly, verdict) = checked.map_err(|error| scene_error(&error))?;
-    match verdict {
+    let assembly = scene.assembly(py, cones)?;
+    let checked = py.detach(|| check_while(&assembly, blocks.as_deref(), route, &mut |_| watch.no_interrupt()));
+    match checked.map_err(|error| scene_error(&error))? {
         Some(verdict) => Verdict::new(py, &assembly, &verdict, start.elapsed()),
         None => Err(watch.error().unwrap_or_else(|| PyKeyboardInterrupt::new_err(()))),
     }

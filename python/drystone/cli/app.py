@@ -54,6 +54,24 @@ class Reuse(str, Enum):
     none = "none"
 
 
+class Cone(str, Enum):
+    """Friction cones in space, within or around the round ones."""
+
+    inscribed = "inscribed"
+    circumscribed = "circumscribed"
+
+
+class ConeOrBoth(str, Enum):
+    """Those of `check`."""
+
+    inscribed = "inscribed"
+    circumscribed = "circumscribed"
+    both = "both"
+
+
+Facets = Annotated[int, typer.Option(min=3, help="In space: edges of a friction cone.")]
+
+
 class Engine(str, Enum):
     """Where the scenes of a folder are planned."""
 
@@ -82,11 +100,15 @@ def check(
     ] = None,
     as_json: AsJson = False,
     output: Picture = None,
+    facets: Facets = 8,
+    cone: Annotated[
+        ConeOrBoth, typer.Option(help="In space: cones within or around the round ones, or both.")
+    ] = ConeOrBoth.both,
 ) -> int:
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command
 
-    return command.run(scene, blocks, as_json, output)
+    return command.run(scene, blocks, as_json, output, facets, cone.value)
 
 
 @app.command()
@@ -105,6 +127,10 @@ def plan(
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads for one scene; one a core.")
     ] = None,
+    facets: Facets = 8,
+    cone: Annotated[
+        Cone, typer.Option(help="In space: cones within or around the round ones.")
+    ] = Cone.inscribed,
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
@@ -145,7 +171,9 @@ def plan(
     from drystone.cli import plan as command
 
     limits = (node_limit, time_limit)
-    return command.run(scene, test.value, *limits, shortcuts, threads, as_json, output)
+    return command.run(
+        scene, test.value, *limits, shortcuts, threads, facets, cone.value, as_json, output
+    )
 
 
 @app.command()

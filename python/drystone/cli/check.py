@@ -16,12 +16,19 @@ MOST_ROWS = 40
 """Longer tables are cut, with a line that says so; --json has everything."""
 
 
-def run(scene_name: str, blocks: str | None, as_json: bool, output: Path | None) -> int:
+def run(
+    scene_name: str,
+    blocks: str | None,
+    as_json: bool,
+    output: Path | None,
+    facets: int,
+    cone: str,
+) -> int:
     """0 if it stands, 1 if not."""
     picture = picture_path(output)
     scene = load_scene(scene_name)
     names = None if blocks is None else [name.strip() for name in blocks.split(",") if name.strip()]
-    verdict = check(scene, names)
+    verdict = check(scene, names, facets=facets, cone=cone)
     if picture is not None:
         with reporting_files():
             verdict.draw(picture)
@@ -47,7 +54,9 @@ def _print(verdict: Verdict, picture: Path | None) -> None:
 
 
 def _force_table(verdict: Verdict) -> Table:
-    table = _table("contact", "x [m]", "y [m]", "normal [N]", "tangential [N]")
+    axes = "xyz"[: verdict.scene.dimension]
+    metres = [f"{axis} [m]" for axis in axes]
+    table = _table("contact", *metres, "normal [N]", "tangential [N]")
     for force in verdict.forces[:MOST_ROWS]:
         table.add_row(
             f"{force.a} - {force.b}",
@@ -59,7 +68,10 @@ def _force_table(verdict: Verdict) -> Table:
 
 
 def _fall_table(verdict: Verdict) -> Table:
-    table = _table("falls", "x [m/s²]", "y [m/s²]", "turns [rad/s²]")
+    titles = ["x [m/s²]", "y [m/s²]", "turns [rad/s²]"]
+    if verdict.scene.dimension == 3:
+        titles = [f"{axis} [m/s²]" for axis in "xyz"] + [f"turns {axis} [rad/s²]" for axis in "xyz"]
+    table = _table("falls", *titles)
     for name in verdict.falling[:MOST_ROWS]:
         table.add_row(name, *(f"{value:.4g}" for value in verdict.acceleration(name)))
     return _cut(table, len(verdict.falling))

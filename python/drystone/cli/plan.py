@@ -17,6 +17,8 @@ def run(
     time_limit: float | None,
     shortcuts: bool,
     threads: int | None,
+    facets: int,
+    cone: str,
     as_json: bool,
     output: Path | None,
 ) -> int:
@@ -24,7 +26,17 @@ def run(
     picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     with PlanProgress() as progress:
-        found = plan(scene, test, node_limit, time_limit, progress, shortcuts, threads)
+        found = plan(
+            scene,
+            test,
+            node_limit,
+            time_limit,
+            progress,
+            shortcuts,
+            threads,
+            facets=facets,
+            cone=cone,
+        )
     if picture is not None:
         with reporting_files():
             _write(found, picture)

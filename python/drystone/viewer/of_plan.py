@@ -48,7 +48,7 @@ def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
         bodies=plan.scene.bodies,
         states=_states(plan, order),
         gravity=plan.scene.gravity,
-        forces=_forces(plan.scene, order, progress),
+        forces=_forces(plan.scene, order, progress, plan.cones),
         series=_series(plan, len(order)),
         captions=_captions(plan, order),
         notes=notes,
@@ -111,13 +111,15 @@ def _series(plan: Plan, blocks: int) -> list[Series]:
     return series
 
 
-def _forces(scene: Scene, order: Sequence[str], progress: Progress | None) -> FrameForces:
+def _forces(
+    scene: Scene, order: Sequence[str], progress: Progress | None, cones: tuple[int, str]
+) -> FrameForces:
     """Of order[k:] in frame k; the bare supports are the last frame."""
     contacts = scene.contacts
     index = {name: body for body, name in enumerate(scene.names)}
     expected = len(contacts) * len(order) / 2 * budget.FORCE_BYTES
     every = max(1, ceil(expected / (SLACK * budget.FILE.forces)))
-    found = _core.forces_along(scene._core, order[::-1], every, progress)
+    found = _core.forces_along(scene._core, order[::-1], every, progress, cones)
     frames = len(order) - found.blocks[::-1]
     counts = np.zeros(len(order) + 1, dtype=np.int64)
     counts[frames] = np.diff(found.offsets)[::-1]

@@ -76,7 +76,7 @@ class Recording:
     """Fixed ones included."""
     states: NDArray[np.uint8]
     """(frames, bodies): `ABSENT`, `PRESENT`, `MOTIONLESS`, `NEXT` or `FALLING` of the contract."""
-    gravity: tuple[float, float] = (0.0, -9.81)
+    gravity: tuple[float, ...] = (0.0, -9.81)
     poses: NDArray[np.float64] | None = None
     """(frames, bodies, 3): x, y (m) and angle (rad, as `Body.angle`). None: nothing moves."""
     times: NDArray[np.float64] | None = None

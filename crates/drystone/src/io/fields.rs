@@ -5,7 +5,7 @@ use crate::suggest::nearest;
 use serde_json::{Map, Value};
 
 /// A JSON object, the file it is from and what it describes.
-pub(super) struct Fields<'a> {
+pub(crate) struct Fields<'a> {
     pub file: &'a str,
     pub place: String,
     map: &'a Map<String, Value>,
@@ -54,12 +54,14 @@ impl<'a> Fields<'a> {
         self.read(field, "a number", Value::as_f64)
     }
 
-    pub fn pair(&self, field: &str) -> Result<Option<[f64; 2]>, FileError> {
-        self.read(field, "two numbers: [x, y]", as_pair)
+    /// N numbers.
+    pub fn numbers<const N: usize>(&self, field: &str) -> Result<Option<[f64; N]>, FileError> {
+        self.read(field, expected(N, false), as_numbers)
     }
 
-    pub fn pairs(&self, field: &str) -> Result<Option<Vec<[f64; 2]>>, FileError> {
-        self.read(field, "a list of points: [[x, y], ...]", |value| value.as_array()?.iter().map(as_pair).collect())
+    /// Points of N coordinates.
+    pub fn points<const N: usize>(&self, field: &str) -> Result<Option<Vec<[f64; N]>>, FileError> {
+        self.read(field, expected(N, true), |value| value.as_array()?.iter().map(as_numbers).collect())
     }
 
     fn read<T>(
@@ -88,9 +90,18 @@ pub(super) fn brief(value: &Value) -> String {
     }
 }
 
-fn as_pair(value: &Value) -> Option<[f64; 2]> {
-    match value.as_array()?.as_slice() {
-        [x, y] => Some([x.as_f64()?, y.as_f64()?]),
-        _ => None,
+fn as_numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let numbers = value.as_array()?.iter().map(Value::as_f64).collect::<Option<Vec<f64>>>()?;
+    numbers.try_into().ok()
+}
+
+/// In words, a point or a list of points of so many coordinates.
+fn expected(coordinates: usize, list: bool) -> &'static str {
+    match (coordinates, list) {
+        (2, false) => "two numbers: [x, y]",
+        (2, true) => "a list of points: [[x, y], ...]",
+        (3, false) => "three numbers: [x, y, z]",
+        (3, true) => "a list of points: [[x, y, z], ...]",
+        _ => "four numbers: [w, x, y, z]",
     }
 }

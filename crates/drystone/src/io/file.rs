@@ -1,14 +1,14 @@
 //! Scene files on disk.
 
-use super::{from_json, to_json};
+use super::from_json;
+use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
-use crate::scene::Scene;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Reads a scene file.
-pub fn load(path: impl AsRef<Path>) -> Result<Scene, SceneError> {
+pub fn load(path: impl AsRef<Path>) -> Result<AnyScene, SceneError> {
     let path = path.as_ref();
     let file = path.display().to_string();
     match fs::read_to_string(path) {
@@ -19,14 +19,14 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene, SceneError> {
 
 /// Writes a scene file whole or not at all: into a new file in the same folder, which then takes
 /// the name. Whoever reads meanwhile sees the old scene or the new one.
-pub fn save(scene: &Scene, path: impl AsRef<Path>) -> Result<(), SceneError> {
+pub fn save(scene: &AnyScene, path: impl AsRef<Path>) -> Result<(), SceneError> {
     let path = path.as_ref();
     let unwritten = |error: io::Error| {
         let (file, reason) = (path.display().to_string(), error.to_string());
         FileError::Write { file, reason }
     };
     let (temporary, file) = create_beside(path).map_err(unwritten)?;
-    let result = fill(file, &to_json(scene)).and_then(|()| fs::rename(&temporary, path));
+    let result = fill(file, &scene.to_json()).and_then(|()| fs::rename(&temporary, path));
     if result.is_err() {
         // The reason to report is the first error; a leftover is only untidy.
         let _ = fs::remove_file(&temporary);

@@ -12,7 +12,10 @@
 //! ```
 //!
 //! Lengths are metres, angles radians, densities kg/m^2. A body has a "box" or a "polygon" in its
-//! own frame, which stands at "position", turned by "angle" (counter-clockwise). Left out are:
+//! own frame, which stands at "position", turned by "angle" (counter-clockwise). In space, which is
+//! "dimension" 3, points have three coordinates, densities are in kg/m^3, the shape is a "box" or
+//! a "solid" of convex pieces (`{"pieces": [{"vertices": [[x, y, z], ...]}, ...]}`), and a unit quaternion
+//! "orientation" (w, x, y, z) takes the place of the angle. Left out are:
 //! name (see [`BodyOptions`](crate::BodyOptions)), position (the origin), angle (0), density (1),
 //! friction (the scene's), fixed (false), and the scene's contact_tolerance (see
 //! [`contact`](crate::contact)). `docs/scene.schema.json` is the format's JSON Schema.
@@ -22,11 +25,12 @@
 mod fields;
 mod file;
 mod read;
+mod shapes;
 mod write;
 
 pub use file::{load, save};
 pub use read::from_json;
-pub use write::to_json;
+pub(crate) use write::to_json;
 
 /// What a scene file's "format" says.
 pub const FORMAT: &str = "drystone-scene";

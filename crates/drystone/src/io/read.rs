@@ -1,28 +1,37 @@
 //! A scene from text.
 
 use super::fields::{Fields, brief, wrong_type};
+use super::shapes::Stored;
 use super::{FORMAT, VERSION};
+use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
-use crate::geometry::Pose;
-use crate::scene::{BodyOptions, Scene};
+use crate::geometry::{Polygon, Solid};
+use crate::scene::{BodyOptions, SceneOf};
 use serde_json::Value;
 
 const SCENE_FIELDS: [&str; 7] =
     ["format", "version", "dimension", "gravity", "friction", "contact_tolerance", "bodies"];
 
-const BODY_FIELDS: [&str; 8] = ["name", "box", "polygon", "position", "angle", "density", "friction", "fixed"];
+/// Fields of a body besides its shape and its place.
+const BODY_FIELDS: [&str; 4] = ["name", "density", "friction", "fixed"];
 
 /// Reads a scene from the text of a scene file. `file` is the name by which errors call it.
 ///
 /// Every error is a [`SceneError::File`] that says file, place and fix; a body that is
 /// well-formed but not valid is [`FileError::Invalid`] around the reason.
-pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
+pub fn from_json(text: &str, file: &str) -> Result<AnyScene, SceneError> {
     let document: Value = serde_json::from_str(text).map_err(|error| syntax(file, text, &error))?;
-    check_header(file, &document)?;
-    let head = Fields::of(file, "the scene".to_owned(), &document, &SCENE_FIELDS)?;
-    let gravity = head.pair("gravity")?.ok_or_else(|| head.missing("\"gravity\""))?;
+    match dimension(file, &document)? {
+        2 => read::<Polygon>(file, &document).map(AnyScene::Plane),
+        _ => read::<Solid>(file, &document).map(AnyScene::Space),
+    }
+}
+
+fn read<S: Stored>(file: &str, document: &Value) -> Result<SceneOf<S>, SceneError> {
+    let head = Fields::of(file, "the scene".to_owned(), document, &SCENE_FIELDS)?;
+    let gravity = S::vector(&head, "gravity")?.ok_or_else(|| head.missing("\"gravity\""))?;
     let friction = head.number("friction")?.ok_or_else(|| head.missing("\"friction\""))?;
-    let mut scene = Scene::new(gravity, friction).map_err(|error| invalid(&head, error))?;
+    let mut scene = SceneOf::new(gravity, friction).map_err(|error| invalid(&head, error))?;
     if let Some(tolerance) = head.number("contact_tolerance")? {
         scene = scene.with_contact_tolerance(tolerance).map_err(|error| invalid(&head, error))?;
     }
@@ -38,7 +47,7 @@ pub fn from_json(text: &str, file: &str) -> Result<Scene, SceneError> {
 }
 
 /// Format, version and dimension come first: a file of another version has other fields.
-fn check_header(file: &str, document: &Value) -> Result<(), FileError> {
+fn dimension(file: &str, document: &Value) -> Result<u64, FileError> {
     let file = file.to_owned();
     let field = |name: &str| document.get(name);
     let found = |name: &str| field(name).map_or("missing".to_owned(), brief);
@@ -49,20 +58,19 @@ fn check_header(file: &str, document: &Value) -> Result<(), FileError> {
         let found = found("version");
         return Err(FileError::UnsupportedVersion { file, found, supported: VERSION });
     }
-    if field("dimension").and_then(Value::as_u64) != Some(2) {
-        return Err(FileError::UnsupportedDimension { file, found: found("dimension") });
+    match field("dimension").and_then(Value::as_u64) {
+        Some(dimension @ 2..=3) => Ok(dimension),
+        _ => Err(FileError::UnsupportedDimension { file, found: found("dimension") }),
     }
-    Ok(())
 }
 
-fn add_body(scene: &mut Scene, file: &str, index: usize, value: &Value) -> Result<(), SceneError> {
+fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: &Value) -> Result<(), SceneError> {
     let place = match value.get("name").and_then(Value::as_str) {
         Some(name) => format!("bodies[{index}] \"{name}\""),
         None => format!("bodies[{index}]"),
     };
-    let body = Fields::of(file, place, value, &BODY_FIELDS)?;
-    let frame =
-        Pose { position: body.pair("position")?.unwrap_or([0.0, 0.0]), angle: body.number("angle")?.unwrap_or(0.0) };
+    let allowed: Vec<&str> = BODY_FIELDS.iter().chain(S::FIELDS).copied().collect();
+    let body = Fields::of(file, place, value, &allowed)?;
     let plain = BodyOptions::default();
     let options = BodyOptions {
         name: body.string("name")?,
@@ -70,48 +78,10 @@ fn add_body(scene: &mut Scene, file: &str, index: usize, value: &Value) -> Resul
         friction: body.number("friction")?,
         fixed: body.flag("fixed")?.unwrap_or(plain.fixed),
     };
-    let added = match read_shape(&body)? {
-        Shape::Box(size) => scene.add_box(frame.position, size, frame.angle, options),
-        Shape::Polygon(vertices) => scene.add_placed_polygon(&vertices, frame, options),
-    };
-    added.map_err(|error| invalid(&body, error))?;
+    let shape = S::shape(&body)?;
+    let pose = S::pose(&body)?;
+    S::add(scene, shape, pose, options).map_err(|error| invalid(&body, error))?;
     Ok(())
-}
-
-enum Shape {
-    Box([f64; 2]),
-    Polygon(Vec<[f64; 2]>),
-}
-
-fn read_shape(body: &Fields) -> Result<Shape, FileError> {
-    let part = |field: &str, value| {
-        Fields::of(
-            body.file,
-            format!("{}: \"{field}\"", body.place),
-            value,
-            match field {
-                "box" => &["size"],
-                _ => &["vertices"],
-            },
-        )
-    };
-    match (body.get("box"), body.get("polygon")) {
-        (Some(value), None) => {
-            let shape = part("box", value)?;
-            let size = shape.pair("size")?;
-            size.map(Shape::Box).ok_or_else(|| shape.missing("\"size\""))
-        }
-        (None, Some(value)) => {
-            let shape = part("polygon", value)?;
-            let vertices = shape.pairs("vertices")?;
-            vertices.map(Shape::Polygon).ok_or_else(|| shape.missing("\"vertices\""))
-        }
-        (None, None) => Err(body.missing("\"box\" or \"polygon\"")),
-        (Some(_), Some(value)) => {
-            let place = format!("{}: \"polygon\" beside \"box\"", body.place);
-            Err(wrong_type(body.file, place, value, "one of the two only"))
-        }
-    }
 }
 
 fn invalid(fields: &Fields, error: SceneError) -> SceneError {

@@ -1,7 +1,8 @@
 //! A scene as text.
 
+use super::shapes::{PoseRecord, ShapeRecord, Stored};
 use super::{FORMAT, VERSION};
-use crate::scene::{Body, Scene};
+use crate::scene::{Body, SceneOf};
 use serde::Serialize;
 
 /// The order of the fields is that of the file.
@@ -10,23 +11,16 @@ struct BodyRecord<'a> {
     name: &'a str,
     #[serde(flatten)]
     shape: ShapeRecord,
-    position: [f64; 2],
-    angle: f64,
+    #[serde(flatten)]
+    pose: PoseRecord,
     density: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     friction: Option<f64>,
     fixed: bool,
 }
 
-#[derive(Serialize)]
-#[serde(rename_all = "lowercase")]
-enum ShapeRecord {
-    Box { size: [f64; 2] },
-    Polygon { vertices: Vec<[f64; 2]> },
-}
-
 /// The scene as JSON, one body a line so that two versions compare well.
-pub fn to_json(scene: &Scene) -> String {
+pub(crate) fn to_json<S: Stored>(scene: &SceneOf<S>) -> String {
     let tolerance = match scene.contact_tolerance() {
         Some(tolerance) => format!("  \"contact_tolerance\": {},\n", number(tolerance)),
         None => String::new(),
@@ -36,28 +30,20 @@ pub fn to_json(scene: &Scene) -> String {
         true => "[]".to_owned(),
         false => format!("[\n{}\n  ]", bodies.join(",\n")),
     };
-    let [x, y] = scene.gravity().map(number);
+    let gravity: Vec<String> = scene.gravity().as_ref().iter().copied().map(number).collect();
     format!(
-        "{{\n  \"format\": \"{FORMAT}\",\n  \"version\": {VERSION},\n  \"dimension\": 2,\n  \
-         \"gravity\": [{x}, {y}],\n  \"friction\": {},\n{tolerance}  \"bodies\": {list}\n}}\n",
+        "{{\n  \"format\": \"{FORMAT}\",\n  \"version\": {VERSION},\n  \"dimension\": {},\n  \
+         \"gravity\": [{}],\n  \"friction\": {},\n{tolerance}  \"bodies\": {list}\n}}\n",
+        S::DIMENSION,
+        gravity.join(", "),
         number(scene.friction()),
     )
 }
 
-fn body_line(body: &Body) -> String {
-    let shape = match body.box_size {
-        Some(size) => ShapeRecord::Box { size },
-        None => ShapeRecord::Polygon { vertices: body.shape.vertices().iter().map(|v| v.to_array()).collect() },
-    };
-    let record = BodyRecord {
-        name: &body.name,
-        shape,
-        position: body.pose.position,
-        angle: body.pose.angle,
-        density: body.density,
-        friction: body.friction,
-        fixed: body.fixed,
-    };
+fn body_line<S: Stored>(body: &Body<S>) -> String {
+    let (shape, pose) = S::record(body);
+    let record =
+        BodyRecord { name: &body.name, shape, pose, density: body.density, friction: body.friction, fixed: body.fixed };
     let text = serde_json::to_string(&record).expect("a record of names and finite numbers");
     format!("    {text}")
 }

@@ -14,7 +14,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
         number("thickness", 0.2, [1e-3, 1.9], "radial thickness, metres"),
         friction(0.7),
     ],
-    make: |given| arch(given.size(0), given.number(1), given.number(2)),
+    make: |given| arch(given.size(0), given.number(1), given.number(2)).map(Into::into),
 };
 
 /// A semicircular arch of mean radius 1 m on level ground. The joints are radial; every voussoir

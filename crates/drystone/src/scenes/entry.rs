@@ -1,7 +1,7 @@
 //! How a built-in scene describes itself and its parameters.
 
+use crate::any_scene::AnyScene;
 use crate::error::SceneError;
-use crate::scene::Scene;
 use crate::suggest::nearest;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ pub struct SceneEntry {
     pub summary: &'static str,
     /// What can be chosen, in the order of the function's arguments.
     pub parameters: &'static [Parameter],
-    pub(super) make: fn(&Arguments) -> Result<Scene, SceneError>,
+    pub(super) make: fn(&Arguments) -> Result<AnyScene, SceneError>,
 }
 
 /// One parameter of a built-in scene.
@@ -85,7 +85,7 @@ impl Arguments {
 }
 
 impl SceneEntry {
-    pub(super) fn build(&self, given: &BTreeMap<String, Value>) -> Result<Scene, SceneError> {
+    pub(super) fn build(&self, given: &BTreeMap<String, Value>) -> Result<AnyScene, SceneError> {
         if let Some(unknown) = given.keys().find(|name| self.parameter(name).is_none()) {
             return Err(self.unknown_parameter(unknown));
         }

@@ -9,7 +9,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
     name: "five_blocks",
     summary: "five blocks in which the order of removal matters",
     parameters: &[friction(0.0)],
-    make: |given| five_blocks(given.number(0)),
+    make: |given| five_blocks(given.number(0)).map(Into::into),
 };
 
 /// Two piers, a plank across them, a load and a counterweight:

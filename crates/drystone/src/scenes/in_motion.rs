@@ -14,56 +14,56 @@ pub(super) const FALLING_COLUMN: SceneEntry = SceneEntry {
     name: "falling_column",
     summary: "seven blocks of which the upper ones fall one after the other, after Fig. 1",
     parameters: &[friction(0.2)],
-    make: |given| falling_column(given.number(0)),
+    make: |given| falling_column(given.number(0)).map(Into::into),
 };
 
 pub(super) const THREE_SEGMENTS: SceneEntry = SceneEntry {
     name: "three_segments",
     summary: "two blocks move, then five, then all, after Fig. 4",
     parameters: &[friction(0.3)],
-    make: |given| three_segments(given.number(0)),
+    make: |given| three_segments(given.number(0)).map(Into::into),
 };
 
 pub(super) const COL20: SceneEntry = SceneEntry {
     name: "col20",
     summary: "a column of 20 unit squares on the ground, to be simulated",
     parameters: &[friction(0.5)],
-    make: |given| standing_column(&COL20, 20, given.number(0)),
+    make: |given| standing_column(&COL20, 20, given.number(0)).map(Into::into),
 };
 
 pub(super) const COL50: SceneEntry = SceneEntry {
     name: "col50",
     summary: "a column of 50 unit squares on the ground, to be simulated",
     parameters: &[friction(0.5)],
-    make: |given| standing_column(&COL50, 50, given.number(0)),
+    make: |given| standing_column(&COL50, 50, given.number(0)).map(Into::into),
 };
 
 pub(super) const PYR13: SceneEntry = SceneEntry {
     name: "pyr13",
     summary: "the pyramid of 13 rows, to be simulated",
     parameters: &[friction(0.5)],
-    make: |given| super::pyramid(13, given.number(0)),
+    make: |given| super::pyramid(13, given.number(0)).map(Into::into),
 };
 
 pub(super) const FALL7: SceneEntry = SceneEntry {
     name: "fall7",
     summary: "five blocks stand still while two topple off them, to be simulated",
     parameters: &[friction(0.5)],
-    make: |given| fall7(given.number(0)),
+    make: |given| fall7(given.number(0)).map(Into::into),
 };
 
 pub(super) const WALL84: SceneEntry = SceneEntry {
     name: "wall84",
     summary: "a wall of 12 courses of 7 bricks of random widths, to be simulated",
     parameters: &[seed(1, "draws the widths"), friction(0.5)],
-    make: |given| wall84(given.integer(0), given.number(1)),
+    make: |given| wall84(given.integer(0), given.number(1)).map(Into::into),
 };
 
 pub(super) const DROP84: SceneEntry = SceneEntry {
     name: "drop84",
     summary: "84 random boxes dropped on the ground, to be simulated",
     parameters: &[seed(1, "draws sizes and angles"), friction(0.5)],
-    make: |given| drop84(given.integer(0), given.number(1)),
+    make: |given| drop84(given.integer(0), given.number(1)).map(Into::into),
 };
 
 /// Five blocks, a plank on them that reaches beyond, and on it a tall block that leans over.

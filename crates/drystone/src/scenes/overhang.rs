@@ -20,21 +20,21 @@ pub(super) const HARMONIC_STACK: SceneEntry = SceneEntry {
         number("overhang_factor", 1.0, [0.0, 1.9], "overhang as a share of the limit H_n / 2"),
         friction(0.0),
     ],
-    make: |given| harmonic_stack(given.size(0), given.number(1), given.number(2)),
+    make: |given| harmonic_stack(given.size(0), given.number(1), given.number(2)).map(Into::into),
 };
 
 pub(super) const DIAMOND: SceneEntry = SceneEntry {
     name: "diamond",
     summary: "rows of 1, 2, ..., m, ..., 2, 1 blocks: stands without friction for m <= 4",
     parameters: &[integer("m", 4, [1, 300], "blocks in the longest row"), friction(0.0)],
-    make: |given| diamond(given.size(0), given.number(1)),
+    make: |given| diamond(given.size(0), given.number(1)).map(Into::into),
 };
 
 pub(super) const INVERTED_TRIANGLE: SceneEntry = SceneEntry {
     name: "inverted_triangle",
     summary: "rows of 1, 2, ..., rows blocks from the bottom: falls without friction from 3 rows",
     parameters: &[integer("rows", 3, [1, 300], "rows"), friction(0.0)],
-    make: |given| inverted_triangle(given.size(0), given.number(1)),
+    make: |given| inverted_triangle(given.size(0), given.number(1)).map(Into::into),
 };
 
 /// `n` blocks over the edge of a table, which ends at x = 0. The i-th from the top extends

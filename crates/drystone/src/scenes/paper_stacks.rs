@@ -12,14 +12,14 @@ pub(super) const COLUMN: SceneEntry = SceneEntry {
     name: "column",
     summary: "unit squares on top of each other, the lowest of them fixed",
     parameters: &[integer("n", 50, [1, 1_000_000], "squares, the fixed one included"), friction(0.0)],
-    make: |given| column(given.size(0), given.number(1)),
+    make: |given| column(given.size(0), given.number(1)).map(Into::into),
 };
 
 pub(super) const PYRAMID: SceneEntry = SceneEntry {
     name: "pyramid",
     summary: "rows of unit squares in full face contact, each on two of the row below",
     parameters: &[integer("rows", 13, [1, 1000], "rows"), friction(0.0)],
-    make: |given| pyramid(given.size(0), given.number(1)),
+    make: |given| pyramid(given.size(0), given.number(1)).map(Into::into),
 };
 
 /// `n` unit squares on top of each other. The lowest is the fixed base ("ground"), so n - 1 can

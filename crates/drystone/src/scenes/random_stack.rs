@@ -42,7 +42,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
         seed(1, "start of the pseudo-random sequence"),
         friction(0.0),
     ],
-    make: |g| random_stack(g.size(0), g.integer(1), g.number(2)),
+    make: |g| random_stack(g.size(0), g.integer(1), g.number(2)).map(Into::into),
 };
 
 /// A stack of `blocks` axis-aligned blocks on a fixed ground, the same for the same `seed`.

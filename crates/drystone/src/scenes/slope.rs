@@ -14,7 +14,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
         number("width", 1.0, [1e-3, 1e3], "the block's side along the plane, metres"),
         number("height", 1.0, [1e-3, 1e3], "the block's side square to the plane, metres"),
     ],
-    make: |g| slope(g.number(0), g.number(1), g.number(2), g.number(3)),
+    make: |g| slope(g.number(0), g.number(1), g.number(2), g.number(3)).map(Into::into),
 };
 
 /// A block on a fixed plane through the origin, which rises to the right by `angle_degrees`.

@@ -23,7 +23,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
         seed(0, "0 for even joints; any other draws their places"),
         friction(0.6),
     ],
-    make: |g| wall(g.size(0), g.size(1), g.integer(2), g.number(3)),
+    make: |g| wall(g.size(0), g.size(1), g.integer(2), g.number(3)).map(Into::into),
 };
 
 /// `rows` courses of bricks of 1 m by 0.5 m, each course shifted by half a brick against the one

@@ -67,7 +67,7 @@ impl World {
                 format!("it is {} of version {}, not {FORMAT} of version {VERSION}", saved.format, saved.version);
             return Err(fault(reason));
         }
-        let scene = io::from_json(&saved.scene, "the snapshot's scene")?;
+        let scene = io::from_json(&saved.scene, "the snapshot's scene")?.in_plane()?;
         let Saved { dt, reuse, restitution, .. } = saved;
         let mut world = Self::resting(scene, Options { dt, reuse, restitution })?;
         let n = world.velocities.len();
