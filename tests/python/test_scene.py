@@ -78,7 +78,7 @@ NAN = float("nan")
 # What is done to a scene with a body "ground", and what the one-line error must say: the name of
 # the thing, and what to do.
 BAD = {
-    "space": (lambda s: ds.Scene(dimension=3), ["dimension", "2"]),
+    "no such dimension": (lambda s: ds.Scene(dimension=4), ["dimension", "2", "3"]),
     "gravity that is not a vector": (lambda s: ds.Scene(gravity=9.81), ["gravity", "two numbers"]),
     "gravity that is not a number": (lambda s: ds.Scene(gravity=(0, NAN)), ["gravity"]),
     "negative friction": (lambda s: ds.Scene(friction=-1), ["friction", "-1"]),
