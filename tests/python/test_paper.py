@@ -49,6 +49,17 @@ def test_reuse_saves_on_random_structures(
     assert plans["lcp"].pivots >= saving * plans["reuse-dantzig"].pivots
 
 
+def test_reuse_saves_in_space(rows: dict[str, paper.Row]) -> None:
+    column = rows["Column 50 cubes"].plans
+    # As in the plane: what is pressed straight needs no other forces.
+    assert (column["lcp"].pivots, column["reuse-dantzig"].pivots) == (2352, 96)
+    assert column["reuse"].pivots == 96
+    for name in ("Pyramid 91 cubes", "Square pyramid 140"):
+        plans = rows[name].plans
+        assert plans["lcp"].pivots > 40 * plans["reuse"].pivots
+        assert plans["lcp"].pivots > 35 * plans["reuse-dantzig"].pivots
+
+
 def test_every_test_finds_the_same_order(rows: dict[str, paper.Row]) -> None:
     for row in rows.values():
         assert row.found
@@ -101,5 +112,5 @@ def test_the_command_prints_the_table_and_writes_everything(
     ]
     with (tmp_path / "new" / "folder" / "table1.csv").open() as file:
         lines = list(csv.DictReader(file))
-    assert len(lines) == 5 * 5
+    assert len(lines) == 8 * 5
     assert {line["pivots"] for line in lines if line["structure"] == "Pyramid 91"} >= {"8190"}
