@@ -47,7 +47,8 @@ pub struct Contact {
     pub friction: f64,
 }
 
-/// Every contact of a scene, in the order of (body, body, feature).
+/// Every contact of a scene, in the order of (body, body, feature); in space in that of the bodies and then round each
+/// shared polygon, of which opposite corners bear in fewer pivots than neighbours.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactSet {
     /// Contact points. A face on a face has two, the ends of the shared segment; a corner on a

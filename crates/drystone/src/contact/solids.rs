@@ -246,9 +246,7 @@ fn without_inner(points: Vec<TouchPoint>, tolerance: f64) -> Vec<TouchPoint> {
             None => planes.push(vec![point]),
         }
     }
-    let mut kept: Vec<TouchPoint> = planes.iter().flat_map(|plane| hull_of(plane, tolerance)).collect();
-    kept.sort_by_key(|point| point.features);
-    kept
+    planes.iter().flat_map(|plane| hull_of(plane, tolerance)).collect()
 }
 
 fn hull_of(plane: &[TouchPoint], tolerance: f64) -> Vec<TouchPoint> {
