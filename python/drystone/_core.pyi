@@ -296,7 +296,9 @@ class StructureForces:
 
 @final
 class World:
-    def __new__(cls, scene: Scene, dt: float, reuse: str, restitution: float) -> World: ...
+    def __new__(
+        cls, scene: Scene, dt: float, reuse: str, restitution: float, formulation: str
+    ) -> World: ...
     def step(self) -> StepRecord: ...
     def run(
         self,
@@ -315,6 +317,8 @@ class World:
     def reuse(self) -> str: ...
     @property
     def restitution(self) -> float: ...
+    @property
+    def formulation(self) -> str: ...
     @property
     def steps(self) -> int: ...
     @property
@@ -380,6 +384,9 @@ class StepRecord:
     friction_error: float
     penetration: float
     projections: int
+    collisions: int
+    fallback: str | None
+    inconsistent: tuple[str, str, str] | None
 
 @final
 class Run:
@@ -398,6 +405,8 @@ class Run:
     rows: NDArray[np.int64]
     rows_reused: NDArray[np.int64]
     projections: NDArray[np.int64]
+    collisions: NDArray[np.int64]
+    inconsistent: NDArray[np.int64]
     solve_seconds: NDArray[np.float64]
     step_seconds: NDArray[np.float64]
     residual: NDArray[np.float64]

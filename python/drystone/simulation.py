@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 REUSE = ("full", "motionless", "none")
 """What a step may take over from the one before it: see `simulate`."""
 
+FORMULATIONS = ("velocity", "acceleration")
+"""What the unknowns of a step may be: see `simulate`."""
+
 ENDINGS = {
     "finished": "Finished",
     "interrupted": "Interrupted",
@@ -59,6 +62,8 @@ class Run:
     """Length of a step, seconds."""
     reuse: str
     restitution: float
+    formulation: str
+    """"velocity" or "acceleration"."""
     poses: NDArray[np.float64]
     """(k + 1, n, 3): the centroid's x and y in metres, and the angle in radians."""
     velocities: NDArray[np.float64]
@@ -77,6 +82,11 @@ class Run:
     """(k,): active rows whose part of the factor came from the step before."""
     projections: NDArray[np.int64]
     """(k,): times that overlaps were taken back; their pivots are in `pivots`."""
+    collisions: NDArray[np.int64]
+    """(k,): contacts at which bodies collided; 0 on the velocity level, which does not ask."""
+    inconsistent: NDArray[np.int64]
+    """(k, 2): the two bodies (indices in `names`) at a contact for which no forces exist or were
+    found, so that impulses took their place; -1 and -1 in all other steps."""
     solve_seconds: NDArray[np.float64]
     """(k,): wall time of the solves, the factor included."""
     step_seconds: NDArray[np.float64]
@@ -102,13 +112,14 @@ class Run:
 
     @classmethod
     def _of(cls, core: _core.Run, world: _core.World, scene: Scene) -> Run:
-        own = {"names", "dt", "reuse", "restitution", "scene"}
+        own = {"names", "dt", "reuse", "restitution", "formulation", "scene"}
         recorded = {f.name: getattr(core, f.name) for f in fields(cls) if f.name not in own}
         return cls(
             names=tuple(world.names),
             dt=world.dt,
             reuse=world.reuse,
             restitution=world.restitution,
+            formulation=world.formulation,
             scene=scene,
             **recorded,
         )
@@ -122,6 +133,11 @@ class Run:
     def finished(self) -> bool:
         """All steps asked for were made."""
         return self.status == "finished"
+
+    @property
+    def by_impulses(self) -> int:
+        """Steps on the acceleration level that had no forces and went by impulses."""
+        return int((self.inconsistent[:, 0] >= 0).sum())
 
     @property
     def moving(self) -> tuple[str, ...]:
@@ -140,6 +156,8 @@ class Run:
         )
         if self.reason is not None:
             text += f"\n{self.reason}."
+        if self.by_impulses:
+            text += f"\nImpulses in place of forces in {counted(self.by_impulses, 'step')}."
         if self.steps:
             text += (
                 f"\nMoving at the end: {shorten(self.moving)}."
@@ -164,7 +182,9 @@ class Run:
             "dt": self.dt,
             "reuse": self.reuse,
             "restitution": self.restitution,
+            "formulation": self.formulation,
             "steps": self.steps,
+            "steps_by_impulses": self.by_impulses,
             **totals,
             "projections": int(self.projections.sum()),
             "solve_seconds": float(self.solve_seconds.sum()),
@@ -226,6 +246,7 @@ class Run:
             "dt": self.dt,
             "reuse": self.reuse,
             "restitution": self.restitution,
+            "formulation": self.formulation,
             "scene": self.scene.to_json(),
         }
         target = Path(path)
@@ -255,6 +276,11 @@ class Run:
             if (about.pop("format"), about.pop("version")) != (_FORMAT, _VERSION):
                 raise ValueError("it is of another format or version")
             about["names"] = tuple(about["names"])
+            if "formulation" not in about:  # written when there was one only
+                steps = len(arrays["pivots"])
+                about["formulation"] = "velocity"
+                arrays["collisions"] = np.zeros(steps, dtype=np.int64)
+                arrays["inconsistent"] = np.full((steps, 2), -1, dtype=np.int64)
             about["scene"] = Scene.from_json(about["scene"])
             return cls(**about, **arrays)
         except OSError:
@@ -272,6 +298,7 @@ def simulate(
     reuse: str = "full",
     *,
     restitution: float = 0.0,
+    formulation: str = "velocity",
     velocities: Mapping[str, Sequence[float]] | None = None,
     forces: bool = False,
     progress: Progress | None = None,
@@ -287,6 +314,11 @@ def simulate(
     - "motionless": the solution of the motionless part, solved anew when that part changes, as in
       the paper;
     - "none": nothing.
+
+    `formulation` says what the unknowns of a step are: on the "velocity" level impulses and
+    velocities, in one problem that always has a solution; on the "acceleration" level forces and
+    accelerations, after impulses where bodies collide, as in the paper. Where no forces exist (as
+    at Painlevé's rod) impulses take their place, and `Run.inconsistent` names the bodies.
 
     `restitution` is the share of the normal velocity with which colliding bodies part (0 to 1).
     `velocities` are (m/s, m/s, rad/s). With `forces` the run holds the contact forces of every
@@ -307,7 +339,7 @@ def simulate(
     """
     if steps < 0:
         raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
-    world = _core.World(scene._core, dt, reuse, restitution)
+    world = _core.World(scene._core, dt, reuse, restitution, formulation)
     for name, velocity in (velocities or {}).items():
         world.set_velocity(name, three(velocity, f'block "{name}": velocity'))
     start = Scene._of(world.scene)

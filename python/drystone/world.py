@@ -34,6 +34,12 @@ class StepRecord:
     friction_error: float
     penetration: float
     projections: int
+    collisions: int
+    fallback: str | None
+    """Acceleration level: how the search for forces ended where it found none, so that impulses
+    took their place. "no_solution" is proved; after another word there may be some."""
+    inconsistent: tuple[str, str, str] | None
+    """The contact to blame for it: names of the two bodies, and what meets."""
 
 
 class World:
@@ -59,9 +65,10 @@ class World:
         reuse: str = "full",
         *,
         restitution: float = 0.0,
+        formulation: str = "velocity",
     ) -> None:
         """Begin with a scene at rest; the arguments and errors are those of `simulate`."""
-        self._core = _core.World(scene._core, dt, reuse, restitution)
+        self._core = _core.World(scene._core, dt, reuse, restitution, formulation)
 
     def step(self) -> StepRecord:
         """Make one step. StepError if it cannot be made; the world is then as it was."""
@@ -89,6 +96,11 @@ class World:
     def dt(self) -> float:
         """Length of a step, seconds."""
         return self._core.dt
+
+    @property
+    def formulation(self) -> str:
+        """What the unknowns of a step are: "velocity" or "acceleration"."""
+        return self._core.formulation
 
     @property
     def steps(self) -> int:

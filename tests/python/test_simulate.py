@@ -72,6 +72,56 @@ def test_reuse_does_not_change_the_motion() -> None:
     assert 10 * runs[1].pivots.sum() < runs[0].pivots.sum()
 
 
+def rod() -> ds.Scene:
+    """Painlevé's: thin, tan(angle) = 2, friction 2, to be thrown to the left."""
+    scene = ds.Scene(friction=2.0)
+    scene.add_box((0, -0.5), (20, 1), name="ground", fixed=True)
+    angle = np.arctan(2)
+    height = np.sin(angle) + 0.0005 * np.cos(angle)
+    scene.add_box((0, height), (2, 0.001), angle=angle, name="rod")
+    return scene
+
+
+def test_a_rod_without_forces_goes_by_impulses(tmp_path: Path) -> None:
+    thrown = {"rod": (-3.0, 0.0, 0.0)}
+    run = ds.simulate(rod(), 1e-3, 500, formulation="acceleration", velocities=thrown)
+    assert run.finished
+    assert run.formulation == "acceleration"
+    assert run.inconsistent.shape == (500, 2)
+    assert run.inconsistent[0].tolist() == [0, 1]
+    assert run.by_impulses == int((run.inconsistent >= 0).all(axis=1).sum()) >= 1
+    assert f"Impulses in place of forces in {run.by_impulses} step" in str(run)
+    assert run.to_dict()["steps_by_impulses"] == run.by_impulses
+    run.save(tmp_path / "rod.npz")
+    again = ds.Run.load(tmp_path / "rod.npz")
+    assert again.formulation == run.formulation
+    assert np.array_equal(again.inconsistent, run.inconsistent)
+    by_velocity = ds.simulate(rod(), 1e-3, 500, velocities=thrown)
+    assert (by_velocity.formulation, by_velocity.by_impulses) == ("velocity", 0)
+
+
+def test_the_record_of_a_step_names_the_contact() -> None:
+    world = ds.World(rod(), 1e-3, formulation="acceleration")
+    world.set_velocity("rod", (-3, 0, 0))
+    assert world.formulation == "acceleration"
+    record = world.step()
+    assert record.fallback == "no_solution"
+    assert record.inconsistent == ("ground", "rod", "a:face 2 / b:corner 0")
+    assert ds.World.restore(world.snapshot()).formulation == "acceleration"
+    still = ds.World(ds.scenes.column(3), formulation="acceleration").step()
+    assert (still.fallback, still.inconsistent, still.collisions) == (None, None, 0)
+
+
+def test_runs_written_before_there_was_a_choice_are_read(run: ds.Run, tmp_path: Path) -> None:
+    run.save(tmp_path / "new.npz")
+    with np.load(tmp_path / "new.npz") as archive:
+        arrays = {name: archive[name] for name in archive.files}
+    about = json.loads(str(arrays.pop("about")))
+    del about["formulation"], arrays["collisions"], arrays["inconsistent"]
+    np.savez(tmp_path / "old.npz", about=np.array(json.dumps(about)), **arrays)
+    assert ds.Run.load(tmp_path / "old.npz").to_dict() == run.to_dict()
+
+
 def test_saved_and_loaded(run: ds.Run, tmp_path: Path) -> None:
     run.save(tmp_path / "run.npz")
     again = ds.Run.load(tmp_path / "run.npz")
@@ -113,6 +163,8 @@ def test_bad_input() -> None:
         ds.simulate(scene, restitution=2)
     with pytest.raises(ValueError, match='unknown reuse "some"'):
         ds.simulate(scene, reuse="some")
+    with pytest.raises(ValueError, match='unknown formulation "force"'):
+        ds.simulate(scene, formulation="force")
     with pytest.raises(ds.SimulationError, match='block "1": velocity must be three numbers'):
         ds.simulate(scene, velocities={"1": (1, 2)})
     with pytest.raises(ds.SceneError, match="no block is named"):
@@ -198,6 +250,15 @@ def test_the_command_line(cli: Cli, tmp_path: Path) -> None:
     answer = json.loads(ran.out)
     assert (answer["steps"], answer["dt"], answer["reuse"]) == (9, 0.001, "none")
     assert answer["moving"] == ["6", "7"]
+
+
+def test_the_command_line_chooses_the_formulation(cli: Cli) -> None:
+    arguments = ("simulate", "fall7", "--steps", "20", "--formulation", "acceleration")
+    answer = json.loads(cli(*arguments, "--json").out)
+    assert (answer["formulation"], answer["steps_by_impulses"]) == ("acceleration", 0)
+    ran = cli(*arguments)
+    assert ran.status == 0
+    assert "steps with collisions" in ran.out
 
 
 def test_a_page_plays_the_run(run: ds.Run, cli: Cli, tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ use crate::{
     scene::{Scene, options},
     verdict::ContactForce,
 };
-use drystone::simulate::{self as core, Ending, Options, Reuse, StepRecord as CoreRecord};
+use drystone::simulate::{self as core, Ending, Formulation, Inconsistent, Options, Reuse, StepRecord as CoreRecord};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyValueError},
@@ -35,6 +35,10 @@ pub struct StepRecord {
     friction_error: f64,
     penetration: f64,
     projections: usize,
+    collisions: usize,
+    fallback: Option<&'static str>,
+    /// Names of the two bodies, and what meets.
+    inconsistent: Option<(String, String, String)>,
 }
 
 /// The records of a run as arrays, one entry a step; places and velocities have one more, the beginning.
@@ -52,6 +56,9 @@ pub struct Run {
     rows: Py<PyArray1<i64>>,
     rows_reused: Py<PyArray1<i64>>,
     projections: Py<PyArray1<i64>>,
+    collisions: Py<PyArray1<i64>>,
+    /// Indices of the two bodies where no forces were found; -1 elsewhere.
+    inconsistent: Py<PyArray2<i64>>,
     solve_seconds: Py<PyArray1<f64>>,
     step_seconds: Py<PyArray1<f64>>,
     residual: Py<PyArray1<f64>>,
@@ -75,6 +82,16 @@ fn named_reuse(name: &str) -> PyResult<Reuse> {
     }
 }
 
+fn named_formulation(name: &str) -> PyResult<Formulation> {
+    match name {
+        "velocity" => Ok(Formulation::Velocity),
+        "acceleration" => Ok(Formulation::Acceleration),
+        other => Err(PyValueError::new_err(format!(
+            "unknown formulation \"{other}\": give \"velocity\" or \"acceleration\""
+        ))),
+    }
+}
+
 fn raised<T>(result: Result<T, core::SimulationError>) -> PyResult<T> {
     result.map_err(|error| simulation_error(&error))
 }
@@ -82,15 +99,16 @@ fn raised<T>(result: Result<T, core::SimulationError>) -> PyResult<T> {
 #[pymethods]
 impl World {
     #[new]
-    fn new(scene: &Scene, dt: f64, reuse: &str, restitution: f64) -> PyResult<Self> {
-        let options = Options { dt, reuse: named_reuse(reuse)?, restitution };
+    fn new(scene: &Scene, dt: f64, reuse: &str, restitution: f64, formulation: &str) -> PyResult<Self> {
+        let (reuse, formulation) = (named_reuse(reuse)?, named_formulation(formulation)?);
+        let options = Options { dt, reuse, restitution, formulation };
         Ok(Self { core: raised(core::World::new(scene.planar()?, options))? })
     }
 
     fn step(&mut self, py: Python<'_>) -> PyResult<StepRecord> {
         let core = &mut self.core;
         let record = py.detach(|| core.step()).map_err(|failure| step_error(&failure))?;
-        Ok(StepRecord::new(py, record))
+        Ok(StepRecord::new(py, record, core.scene().bodies()))
     }
 
     /// Makes steps; `progress` is called with (steps made, steps in all) a few times a second.
@@ -128,6 +146,11 @@ impl World {
     #[getter]
     fn restitution(&self) -> f64 {
         self.core.options().restitution
+    }
+
+    #[getter]
+    fn formulation(&self) -> &'static str {
+        self.core.options().formulation.name()
     }
 
     #[getter]
@@ -223,7 +246,11 @@ impl World {
 }
 
 impl StepRecord {
-    fn new(py: Python<'_>, record: CoreRecord) -> Self {
+    fn new(py: Python<'_>, record: CoreRecord, bodies: &[drystone::Body]) -> Self {
+        let place = |Inconsistent { contact, .. }: Inconsistent| {
+            let [a, b] = contact.bodies.map(|body| bodies[body].name.clone());
+            (a, b, contact.feature.to_string())
+        };
         Self {
             motionless: crate::arrays::vector(py, record.motionless).unbind(),
             pivots: record.counts.pivots,
@@ -238,6 +265,9 @@ impl StepRecord {
             friction_error: record.friction_error,
             penetration: record.penetration,
             projections: record.projections,
+            collisions: record.collisions,
+            fallback: record.inconsistent.map(|found| found.status),
+            inconsistent: record.inconsistent.map(place),
         }
     }
 }
@@ -255,6 +285,10 @@ impl Run {
             Ok(PyArray1::from_vec(py, flat).reshape([values.len(), bodies, 3])?.unbind())
         };
         let still: Vec<bool> = run.records.iter().flat_map(|record| record.motionless.iter().copied()).collect();
+        let places = run.records.iter().flat_map(|record| match record.inconsistent {
+            Some(Inconsistent { contact, .. }) => contact.bodies.map(|body| body as i64),
+            None => [-1; 2],
+        });
         let forces = Forces::of(&run.contacts, dt);
         let reason = match &run.ending {
             Ending::Failed(failure) => Some(failure.to_string()),
@@ -273,6 +307,8 @@ impl Run {
             rows: counts(&|r| r.rows),
             rows_reused: counts(&|r| r.rows_reused),
             projections: counts(&|r| r.projections),
+            collisions: counts(&|r| r.collisions),
+            inconsistent: PyArray1::from_iter(py, places).reshape([run.records.len(), 2])?.unbind(),
             solve_seconds: numbers(&|r| r.solve_time.as_secs_f64()),
             step_seconds: numbers(&|r| r.time.as_secs_f64()),
             residual: numbers(&|r| r.residual),

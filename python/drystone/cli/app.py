@@ -54,6 +54,13 @@ class Reuse(str, Enum):
     none = "none"
 
 
+class Formulation(str, Enum):
+    """What the unknowns of a step of `simulate` are."""
+
+    velocity = "velocity"
+    acceleration = "acceleration"
+
+
 class Cone(str, Enum):
     """Friction cones in space, within or around the round ones."""
 
@@ -187,6 +194,10 @@ def simulate(
     restitution: Annotated[
         float, typer.Option(help="Share of the speed with which colliding blocks part, 0 to 1.")
     ] = 0.0,
+    formulation: Annotated[
+        Formulation,
+        typer.Option(help="Impulses and velocities, or forces and accelerations (Baraff's)."),
+    ] = Formulation.velocity,
     forces: Annotated[
         bool, typer.Option("--forces", help="Record the contact forces of every step.")
     ] = False,
@@ -199,7 +210,17 @@ def simulate(
     """How does it move? From rest, step by step, with exact contact and friction."""
     from drystone.cli import simulate as command
 
-    return command.run(scene, dt, steps, reuse.value, restitution, forces, as_json, output)
+    return command.run(
+        scene,
+        dt,
+        steps,
+        reuse.value,
+        restitution,
+        formulation.value,
+        forces,
+        as_json,
+        output,
+    )
 
 
 bench_app = typer.Typer(help="Repeat published measurements.", no_args_is_help=True)

@@ -23,6 +23,7 @@ def run(
     steps: int,
     reuse: str,
     restitution: float,
+    formulation: str,
     forces: bool,
     as_json: bool,
     output: Path | None,
@@ -34,7 +35,14 @@ def run(
     scene = load_scene(scene_name)
     with RunProgress() as progress:
         made = simulate(
-            scene, dt, steps, reuse, restitution=restitution, forces=forces, progress=progress
+            scene,
+            dt,
+            steps,
+            reuse,
+            restitution=restitution,
+            formulation=formulation,
+            forces=forces,
+            progress=progress,
         )
     if output is not None:
         with reporting_files():
@@ -72,5 +80,8 @@ def _facts(made: Run) -> Table:
     facts.add_row("steps in which nothing moved", f"{settled} of {made.steps}")
     facts.add_row("deepest overlap", f"{made.penetration.max():.2g} m")
     facts.add_row("largest error of friction", f"{made.friction_error.max():.2g} m/s")
+    if made.formulation != "velocity":
+        facts.add_row("formulation", made.formulation)
+        facts.add_row("steps with collisions", f"{int((made.collisions > 0).sum())}")
     facts.add_row("reuse", made.reuse)
     return facts

@@ -15,20 +15,27 @@
 //! [`run`] makes many steps and records them. Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006), section
 //! IV; the theory is in docs/theory/velocity-level.md.
 
+mod acceleration_level;
+mod coulomb;
 mod error;
+mod formulation;
 mod friction;
 mod integrate;
+mod islands;
 mod motionless;
 mod project;
 mod reuse;
 mod run;
+mod sliding;
 mod snapshot;
 mod solve;
 mod step;
 mod velocity_level;
 mod world;
 
+pub use acceleration_level::Inconsistent;
 pub use error::{SimulationError, StepFailure};
+pub use formulation::Formulation;
 pub use friction::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
 pub use reuse::Reuse;
 pub use run::{Ending, Run, run};

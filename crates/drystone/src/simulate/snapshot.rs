@@ -5,6 +5,7 @@
 
 use super::{
     error::SimulationError,
+    formulation::Formulation,
     reuse::{Kept, Reuse},
     velocity_level::{Velocity, VelocityLevel},
     world::{Options, World},
@@ -23,6 +24,9 @@ struct Saved {
     dt: f64,
     reuse: Reuse,
     restitution: f64,
+    /// Absent in what was written before there was a choice.
+    #[serde(default)]
+    formulation: Formulation,
     velocities: Vec<Velocity>,
     forces: Vec<[f64; 3]>,
     motionless: Vec<bool>,
@@ -43,6 +47,7 @@ impl World {
             dt: self.options.dt,
             reuse: self.options.reuse,
             restitution: self.options.restitution,
+            formulation: self.options.formulation,
             velocities: self.velocities.clone(),
             forces: self.forces.clone(),
             motionless: self.motionless.clone(),
@@ -68,8 +73,8 @@ impl World {
             return Err(fault(reason));
         }
         let scene = io::from_json(&saved.scene, "the snapshot's scene")?.in_plane()?;
-        let Saved { dt, reuse, restitution, .. } = saved;
-        let mut world = Self::resting(scene, Options { dt, reuse, restitution })?;
+        let Saved { dt, reuse, restitution, formulation, .. } = saved;
+        let mut world = Self::resting(scene, Options { dt, reuse, restitution, formulation })?;
         let n = world.velocities.len();
         let (points, finite) =
             (saved.before.as_ref().map_or(0, Vec::len), |v: &[f64; 3]| v.iter().all(|v| v.is_finite()));

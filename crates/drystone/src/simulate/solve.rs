@@ -1,13 +1,14 @@
 //! Solving a step: the contact problem again and again, until sliding contacts obey Coulomb's law.
 
 use super::{
+    acceleration_level::Inconsistent,
     error::StepFailure,
     friction::{FRICTION_ACCEPTED, FixedPoint, MOST_SOLVES, acceptable},
     reuse::Situation,
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
     world::World,
 };
-use drystone_lcp::{LcpError, Status};
+use drystone_lcp::{Counts, LcpError, Status};
 use std::time::{Duration, Instant};
 
 /// A solved step.
@@ -23,6 +24,10 @@ pub(super) struct Motion {
     pub solves: usize,
     pub rows_reused: usize,
     pub time: Duration,
+    /// Work besides the route's.
+    pub counts: Counts,
+    pub collisions: usize,
+    pub inconsistent: Option<Inconsistent>,
 }
 
 /// One solve for assumed sliding speeds.
@@ -145,6 +150,9 @@ impl World {
             solves,
             rows_reused,
             time,
+            counts: Counts::default(),
+            collisions: 0,
+            inconsistent: None,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! One time step: contacts, formulate, solve, find motionless, integrate.
 
 use super::{
+    acceleration_level::Inconsistent,
     error::StepFailure,
     integrate::advance,
     motionless::motionless_bodies,
@@ -39,6 +40,10 @@ pub struct StepRecord {
     /// Largest speed, m/s, at which a contact that bears parts or closes against Coulomb's law: what is left of the fixed
     /// point's iteration, at most [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED), relative above 1 m/s, unless it did not converge.
     pub friction_error: f64,
+    /// Contacts at which bodies collided, so that impulses came before the forces; acceleration level only.
+    pub collisions: usize,
+    /// Where no forces were found, so that impulses took their place; acceleration level only.
+    pub inconsistent: Option<Inconsistent>,
     /// Deepest overlap at the end of the step, metres.
     pub penetration: f64,
     /// Times overlaps were taken back; their pivots are among the step's.
@@ -59,8 +64,8 @@ impl World {
         let free = self.free_velocities();
 
         let problem = self.contacts(&free)?;
-        let offsets = self.formulate(&problem, &free);
-        let motion = self.solve(&problem, &free, &offsets)?;
+        let law = self.options.formulation.law();
+        let motion = law.motion(self, &problem, &free)?;
         let motionless = self.find_motionless(&motion)?;
         let projected = self.integrate(motion.velocities, motionless);
 
@@ -69,7 +74,7 @@ impl World {
         self.steps += 1;
         let record = StepRecord {
             motionless: self.motionless.clone(),
-            counts: self.route.counts() - spent + projected.counts,
+            counts: self.route.counts() - spent + motion.counts + projected.counts,
             solves: motion.solves,
             rows: problem.len(),
             rows_reused: motion.rows_reused,
@@ -77,6 +82,8 @@ impl World {
             time: begun.elapsed(),
             residual: motion.residual,
             friction_error: motion.friction_error,
+            collisions: motion.collisions,
+            inconsistent: motion.inconsistent,
             penetration: self.finder.penetration(),
             projections: projected.rounds,
         };
@@ -86,13 +93,18 @@ impl World {
 
     /// `v* = v + h M^-1 F`: what the velocities would be without contacts.
     fn free_velocities(&self) -> Vec<Velocity> {
+        self.free_from(&self.velocities)
+    }
+
+    /// The same from other velocities.
+    pub(super) fn free_from(&self, velocities: &[Velocity]) -> Vec<Velocity> {
         let [gx, gy] = self.scene.gravity();
         let free = |i: usize| {
-            let (v, inverse, f) = (self.velocities[i], self.inverse_mass[i], self.forces[i]);
+            let (v, inverse, f) = (velocities[i], self.inverse_mass[i], self.forces[i]);
             let fall = if inverse == [0.0; 3] { [0.0; 3] } else { [gx, gy, 0.0] };
             [0, 1, 2].map(|axis| v[axis] + self.options.dt * (fall[axis] + inverse[axis] * f[axis]))
         };
-        (0..self.velocities.len()).map(free).collect()
+        (0..velocities.len()).map(free).collect()
     }
 
     /// Every approach that may close within the step.
@@ -118,19 +130,19 @@ impl World {
         StepFailure::TooFast { body: name(body), other: name(other), dt: MOST_TURN / free[body][2].abs() }
     }
 
-    /// The offset c of every approach, m/s: what may be closed of a gap within the step, and the rebound of an impact.
-    fn formulate(&self, problem: &VelocityLevel, free: &[Velocity]) -> Vec<f64> {
+    /// The offset of an approach at which bodies collide and part again, m/s: `e u_n`. None where they do not.
+    pub(super) fn rebound(&self, approach: &Approach, free: &[Velocity]) -> Option<f64> {
         let (dt, restitution) = (self.options.dt, self.options.restitution);
+        let [arriving, _] = normal_and_tangential(approach, &self.velocities);
+        let [free, _] = normal_and_tangential(approach, free);
+        let collides = arriving < -self.resting_speed() && approach.gap.max(0.0) + dt * free <= 0.0;
+        (restitution > 0.0 && collides).then_some(restitution * arriving)
+    }
+
+    /// Contacts that close more slowly rest, m/s.
+    pub(super) fn resting_speed(&self) -> f64 {
         let [gx, gy] = self.scene.gravity();
-        let resting = RESTING_STEPS * dt * gx.hypot(gy);
-        let offset = |approach: &Approach| {
-            let gap = approach.gap.max(0.0);
-            let [arriving, _] = normal_and_tangential(approach, &self.velocities);
-            let [free, _] = normal_and_tangential(approach, free);
-            let collides = restitution > 0.0 && arriving < -resting && gap + dt * free <= 0.0;
-            if collides { restitution * arriving } else { gap / dt }
-        };
-        problem.approaches().iter().map(offset).collect()
+        RESTING_STEPS * self.options.dt * gx.hypot(gy)
     }
 
     /// The motionless set of the step.

@@ -145,7 +145,7 @@ impl VelocityLevel {
 }
 
 /// Force and moment about the centroid of a force that acts at the end of `arm`.
-fn wrench([rx, ry]: [f64; 2], [fx, fy]: [f64; 2]) -> [f64; 3] {
+pub(super) fn wrench([rx, ry]: [f64; 2], [fx, fy]: [f64; 2]) -> [f64; 3] {
     [fx, fy, rx * fy - ry * fx]
 }
 

@@ -2,6 +2,7 @@
 
 use super::{
     error::SimulationError,
+    formulation::Formulation,
     reuse::{Reuse, Route},
     velocity_level::{Velocity, VelocityLevel},
 };
@@ -20,11 +21,13 @@ pub struct Options {
     pub reuse: Reuse,
     /// Share of the normal velocity with which colliding blocks part: 0 for none, 1 for all.
     pub restitution: f64,
+    /// What the unknowns of a step are.
+    pub formulation: Formulation,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { dt: 1.0 / 240.0, reuse: Reuse::Full, restitution: 0.0 }
+        Self { dt: 1.0 / 240.0, reuse: Reuse::Full, restitution: 0.0, formulation: Formulation::Velocity }
     }
 }
 

@@ -1,0 +1,253 @@
+//! The forces of an island in which something slides: a complementarity problem whose matrix is not symmetric.
+//!
+//! What a variable pushes and what its row measures differ where a contact slides, so `M = W' M^-1 G` with W other than G.
+//! Per contact, in impulses `p = h f` and velocities at the end of the step `u = u' + h a` (h times Baraff's conditions):
+//!
+//! ```text
+//! slides at u_t' (1 row):   p_n >= 0  complementary to  u_n + c >= 0,    the force is p_n (n - mu sign(u_t') t)
+//! rests (4 rows):           p_n >= 0  complementary to  u_n + c >= 0
+//!                           p_1 >= 0  complementary to  u_t + s >= 0,    the force is p_n n + (p_1 - p_2) t
+//!                           p_2 >= 0  complementary to  s - u_t >= 0
+//!                           s   >= 0  complementary to  mu p_n - p_1 - p_2 >= 0
+//! no friction (1 row):      as sliding, with mu = 0
+//! ```
+//!
+//! The four rows say that s = |u_t| and, where it is not zero, that friction is on the edge of the cone that opposes it: Baraff's
+//! `|f_t| <= mu f_n`, `a_t f_t <= 0`, `a_t (mu f_n - |f_t|) = 0`. Principal pivoting needs symmetry, so Lemke's method solves it. Where all
+//! contacts rest it always finds a solution (Pang and Trinkle); a sliding contact with
+//! `n' A (n - mu sign(u_t') t) <= 0` may leave none: Painlevé's paradox.
+//!
+//! Friction slows a sliding contact to zero and not beyond. One that would reverse within the step is taken for a resting
+//! one, and the island solved again; each does so once at most.
+//!
+//! D. Baraff, "Fast contact force computation for nonpenetrating rigid bodies", 1994; the rows of a resting contact:
+//! J.-S. Pang and J. Trinkle, "Complementarity formulations and existence of solutions of dynamic multi-rigid-body contact
+//! problems with Coulomb friction", 1996.
+
+use super::{
+    acceleration_level::Inconsistent,
+    velocity_level::{Velocity, VelocityLevel, normal_and_tangential, wrench},
+};
+use crate::contact::approach::Approach;
+use drystone_lcp::{Counts, LcpError, Lemke, Method, Problem, Settings, Solution, Status};
+
+/// What a contact does at the beginning of a step, after collisions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Mode {
+    /// It does not slide; friction is what it takes to keep it so, within the cone.
+    Rests,
+    /// It slides along the tangent in this direction, +1 or -1; friction opposes it.
+    Slides(f64),
+}
+
+/// What a step gives to an island.
+pub(super) struct Island<'a> {
+    pub contacts: &'a VelocityLevel,
+    /// Its approaches, by number.
+    pub members: Vec<usize>,
+    /// What each of them does.
+    pub modes: Vec<Mode>,
+    pub free: &'a [Velocity],
+    pub offsets: &'a [f64],
+    pub inverse_mass: &'a [[f64; 3]],
+}
+
+/// Its motion.
+pub(super) struct Found {
+    pub members: Vec<usize>,
+    /// Along the normal and the tangent of every member, N s.
+    pub impulses: Vec<[f64; 2]>,
+    /// Of all bodies; those of other islands are free here.
+    pub velocities: Vec<Velocity>,
+    pub residual: f64,
+    pub solves: usize,
+    pub counts: Counts,
+}
+
+/// One row: what is measured and what the variable pushes, each a wrench on the two bodies of a member.
+struct Row {
+    measured: Pair,
+    pushed: Pair,
+    constant: f64,
+}
+
+/// Two bodies, each with a wrench.
+type Pair = [(usize, [f64; 3]); 2];
+
+/// Rows of a resting contact with friction, and their places in it.
+const RESTING_ROWS: usize = 4;
+const ALONG: usize = 1;
+const AGAINST: usize = 2;
+const SPEED: usize = 3;
+
+impl Island<'_> {
+    /// Solves for the velocities at the end of the step.
+    ///
+    /// # Errors
+    /// [`Inconsistent`] where no forces were found.
+    pub fn solve(mut self) -> Result<Found, Inconsistent> {
+        let (mut counts, mut solves) = (Counts::default(), 0);
+        loop {
+            let (rows, starts) = self.rows();
+            let solved = self.problem(&rows, &starts).and_then(|problem| {
+                let solution = Lemke.solve(&problem, None, &Settings::default())?;
+                Ok((problem, solution))
+            });
+            let (problem, solution) = solved.map_err(|_| self.trouble())?;
+            if solution.status != Status::Solved {
+                return Err(self.inconsistent(&starts, &problem, &solution));
+            }
+            counts = counts + solution.counts;
+            solves += 1;
+            let impulses = self.impulses(&starts, &solution.z);
+            let velocities = self.velocities(&impulses);
+            if !self.stop_reversed(&impulses, &velocities) {
+                let residual = solution.residual;
+                return Ok(Found { members: self.members, impulses, velocities, residual, solves, counts });
+            }
+        }
+    }
+
+    fn approach(&self, member: usize) -> &Approach {
+        &self.contacts.approaches()[self.members[member]]
+    }
+
+    /// The rows, and the first one of every member.
+    fn rows(&self) -> (Vec<Row>, Vec<usize>) {
+        let (mut rows, mut starts) = (Vec::new(), vec![0]);
+        for member in 0..self.members.len() {
+            let approach = self.approach(member);
+            let [nx, ny] = approach.normal;
+            let [u_n, u_t] = normal_and_tangential(approach, self.free);
+            let wrenches = |[x, y]: [f64; 2]| {
+                let on = |side: usize, sign: f64| {
+                    (approach.id.bodies[side], wrench(approach.arms[side], [sign * x, sign * y]))
+                };
+                [on(0, -1.0), on(1, 1.0)]
+            };
+            let mut row = |measured: [f64; 2], pushed: [f64; 2], constant: f64| {
+                rows.push(Row { measured: wrenches(measured), pushed: wrenches(pushed), constant });
+            };
+            let (normal, tangent, against, nothing) = ([nx, ny], [-ny, nx], [ny, -nx], [0.0; 2]);
+            let closing = u_n + self.offsets[self.members[member]];
+            match self.modes[member] {
+                Mode::Slides(sign) => {
+                    let drag = approach.friction * sign;
+                    row(normal, [nx + drag * ny, ny - drag * nx], closing);
+                }
+                Mode::Rests => {
+                    row(normal, normal, closing);
+                    if approach.friction > 0.0 {
+                        row(tangent, tangent, u_t);
+                        row(against, against, -u_t);
+                        row(nothing, nothing, 0.0);
+                    }
+                }
+            }
+            starts.push(rows.len());
+        }
+        (rows, starts)
+    }
+
+    fn problem(&self, rows: &[Row], starts: &[usize]) -> Result<Problem, LcpError> {
+        let n = rows.len();
+        let mut m = vec![0.0; n * n];
+        for (j, column) in rows.iter().enumerate() {
+            for (i, row) in rows.iter().enumerate() {
+                m[i * n + j] = self.between(&row.measured, &column.pushed);
+            }
+        }
+        for (member, start) in starts.windows(2).enumerate() {
+            let (first, count) = (start[0], start[1] - start[0]);
+            if count == RESTING_ROWS {
+                let (along, against, speed) = (first + ALONG, first + AGAINST, first + SPEED);
+                for side in [along, against] {
+                    m[side * n + speed] = 1.0;
+                    m[speed * n + side] = -1.0;
+                }
+                m[speed * n + first] = self.approach(member).friction;
+            }
+        }
+        Problem::from_dense(&m, rows.iter().map(|row| row.constant).collect())
+    }
+
+    /// Speed measured by one wrench that a unit of the other gives.
+    fn between(&self, measured: &Pair, pushed: &Pair) -> f64 {
+        let mut speed = 0.0;
+        for (body, along) in measured {
+            for (_, by) in pushed.iter().filter(|(other, _)| other == body) {
+                speed += (0..3).map(|axis| along[axis] * self.inverse_mass[*body][axis] * by[axis]).sum::<f64>();
+            }
+        }
+        speed
+    }
+
+    /// Along the normal and the tangent.
+    fn impulses(&self, starts: &[usize], z: &[f64]) -> Vec<[f64; 2]> {
+        let of = |member: usize| {
+            let first = starts[member];
+            let tangential = match self.modes[member] {
+                Mode::Slides(sign) => -sign * self.approach(member).friction * z[first],
+                Mode::Rests if starts[member + 1] - first == RESTING_ROWS => z[first + ALONG] - z[first + AGAINST],
+                Mode::Rests => 0.0,
+            };
+            [z[first], tangential]
+        };
+        (0..self.members.len()).map(of).collect()
+    }
+
+    fn velocities(&self, impulses: &[[f64; 2]]) -> Vec<Velocity> {
+        let mut velocities = self.free.to_vec();
+        for (member, &[p_n, p_t]) in impulses.iter().enumerate() {
+            let approach = self.approach(member);
+            let [nx, ny] = approach.normal;
+            for (side, sign) in [(0, -1.0), (1, 1.0)] {
+                let body = approach.id.bodies[side];
+                let force = [sign * (p_n * nx - p_t * ny), sign * (p_n * ny + p_t * nx)];
+                let change = wrench(approach.arms[side], force);
+                (0..3).for_each(|axis| velocities[body][axis] += self.inverse_mass[body][axis] * change[axis]);
+            }
+        }
+        velocities
+    }
+
+    /// Takes sliding contacts that bear and have come to slide the other way for resting ones. Whether there are any.
+    fn stop_reversed(&mut self, impulses: &[[f64; 2]], velocities: &[Velocity]) -> bool {
+        let reversed = |&member: &usize| {
+            let [_, u_t] = normal_and_tangential(self.approach(member), velocities);
+            let bears = impulses[member][0] > 0.0 && self.approach(member).friction > 0.0;
+            matches!(self.modes[member], Mode::Slides(sign) if bears && sign * u_t < 0.0)
+        };
+        let members: Vec<usize> = (0..self.members.len()).filter(reversed).collect();
+        members.iter().for_each(|&member| self.modes[member] = Mode::Rests);
+        !members.is_empty()
+    }
+
+    /// The contact to blame: one that sinks in whatever the others do, which is a proof that there are no forces; else, of the
+    /// sliding ones, that with the largest part in the ray on which the method ended.
+    fn inconsistent(&self, starts: &[usize], problem: &Problem, solution: &Solution) -> Inconsistent {
+        let members = 0..self.members.len();
+        if let Some(member) = members.clone().find(|&member| sinks(problem, starts[member])) {
+            return Inconsistent { contact: self.approach(member).id, status: Status::NoSolution.name() };
+        }
+        let blame = |member: usize| {
+            let part = solution.ray.as_ref().map_or(0.0, |ray| ray[starts[member]]);
+            (matches!(self.modes[member], Mode::Slides(_)) && part > 0.0, part)
+        };
+        let by_blame = |&a: &usize, &b: &usize| {
+            let ((a_slides, a_part), (b_slides, b_part)) = (blame(a), blame(b));
+            a_slides.cmp(&b_slides).then(a_part.total_cmp(&b_part))
+        };
+        let member = members.max_by(by_blame).unwrap_or(0);
+        Inconsistent { contact: self.approach(member).id, status: solution.status.name() }
+    }
+
+    fn trouble(&self) -> Inconsistent {
+        Inconsistent { contact: self.approach(0).id, status: Status::NumericalTrouble.name() }
+    }
+}
+
+/// Whether `w` of a row is negative for every `z >= 0`.
+fn sinks(problem: &Problem, row: usize) -> bool {
+    problem.q()[row] < 0.0 && (0..problem.len()).all(|column| problem.m().get(row, column) <= 0.0)
+}
