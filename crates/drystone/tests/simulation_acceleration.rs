@@ -283,3 +283,18 @@ fn what_is_kept_between_steps_is_in_the_snapshot() {
         assert_eq!(falling.hash(), again.hash());
     }
 }
+
+/// A heap of boxes with many contacts that slide: forces are found in every step, and they obey Coulomb's law.
+#[test]
+fn a_heap_has_forces_in_every_step() {
+    let mut world = world(scenes::drop84(1, 0.5).unwrap(), 1.0 / 240.0);
+    let mut energy = world.energy();
+    for step in 0..600 {
+        let record = world.step().unwrap();
+        assert_eq!(record.inconsistent, None, "step {step}");
+        assert!(record.friction_error <= 1e-8, "step {step}: {:e}", record.friction_error);
+        assert!(record.penetration <= 1e-6, "step {step}: {:e}", record.penetration);
+        assert!(world.energy() <= energy + 1e-12 * energy.abs(), "step {step}");
+        energy = world.energy();
+    }
+}

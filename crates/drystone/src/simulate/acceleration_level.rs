@@ -45,7 +45,7 @@ pub struct Inconsistent {
 
 /// A contact slides if it is faster than this, m/s (above 1 m/s, than this share of the fastest body). Ten times what may be left of
 /// the speed of one that rests. The choice does not show: what is taken for sliding and would reverse, rests.
-const SLIDES: f64 = 10.0 * super::FRICTION_ACCEPTED;
+pub(super) const SLIDES: f64 = 10.0 * super::FRICTION_ACCEPTED;
 
 /// What closes more slowly is no collision, m/s, where gravity gives no measure.
 const LEAST_COLLISION: f64 = 1e-9;
@@ -76,10 +76,18 @@ impl Law for AccelerationLevel {
         let sliding = islands.with(contacts, |k| modes[k] != Mode::Rests);
         let (mut found, mut inconsistent) = (Vec::new(), None);
         for members in sliding {
-            let modes = members.iter().map(|&k| modes[k]).collect();
-            let (free, offsets, inverse_mass) = (&free, &offsets, &world.inverse_mass);
-            match (Island { contacts, members, modes, free, offsets, inverse_mass }).solve() {
-                Ok(motion) => found.push(motion),
+            let island = Island {
+                contacts,
+                modes: members.iter().map(|&k| modes[k]).collect(),
+                members,
+                started: &collided.velocities,
+                free: &free,
+                offsets: &offsets,
+                inverse_mass: &world.inverse_mass,
+                slow: world.resting_speed(),
+            };
+            match island.solve() {
+                Ok(motion) => found.extend(motion),
                 Err(contact) => inconsistent = inconsistent.or(Some(contact)),
             }
         }
@@ -184,14 +192,14 @@ fn solve_others(
 
     let mut motion = world.solve(contacts, &others, &open)?;
     for (body, island) in of_body.iter().enumerate().filter_map(|(body, island)| Some((body, (*island)?))) {
-        motion.velocities[body] = island.velocities[body];
+        motion.velocities[body] = island.motion.velocities[body];
     }
     for island in found {
-        for (&k, impulse) in island.members.iter().zip(&island.impulses) {
+        for (&k, impulse) in island.members.iter().zip(&island.motion.impulses) {
             motion.impulses[k] = *impulse;
             motion.sliding[k] = normal_and_tangential(&contacts.approaches()[k], &motion.velocities)[1].abs();
         }
-        motion.add_work(island.solves, island.counts, island.residual);
+        motion.add_work(island.work.solves, island.work.counts, island.residual);
     }
     Ok(motion)
 }

@@ -18,18 +18,19 @@
 //! `n' A (n - mu sign(u_t') t) <= 0` may leave none: Painlevé's paradox.
 //!
 //! Friction slows a sliding contact to zero and not beyond. One that would reverse within the step is taken for a resting
-//! one, and the island solved again; each does so once at most.
+//! one, and the island solved again; each does so once at most. So may what slides slowly, if there are no forces else.
 //!
 //! D. Baraff, "Fast contact force computation for nonpenetrating rigid bodies", 1994; the rows of a resting contact:
 //! J.-S. Pang and J. Trinkle, "Complementarity formulations and existence of solutions of dynamic multi-rigid-body contact
 //! problems with Coulomb friction", 1996.
 
 use super::{
-    acceleration_level::Inconsistent,
+    acceleration_level::{Inconsistent, SLIDES},
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential, wrench},
 };
 use crate::contact::approach::Approach;
 use drystone_lcp::{Counts, LcpError, Lemke, Method, Problem, Settings, Solution, Status};
+use std::mem;
 
 /// What a contact does at the beginning of a step, after collisions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,21 +48,43 @@ pub(super) struct Island<'a> {
     pub members: Vec<usize>,
     /// What each of them does.
     pub modes: Vec<Mode>,
+    /// Velocities at the beginning of the step, and without contacts at its end.
+    pub started: &'a [Velocity],
     pub free: &'a [Velocity],
     pub offsets: &'a [f64],
     pub inverse_mass: &'a [[f64; 3]],
+    /// What slides more slowly may be stopped within the step by forces, m/s.
+    pub slow: f64,
 }
 
-/// Its motion.
+/// An island that was solved.
 pub(super) struct Found {
     pub members: Vec<usize>,
+    pub motion: IslandMotion,
+    pub residual: f64,
+    pub work: Work,
+}
+
+/// How an island moves.
+pub(super) struct IslandMotion {
     /// Along the normal and the tangent of every member, N s.
     pub impulses: Vec<[f64; 2]>,
     /// Of all bodies; those of other islands are free here.
     pub velocities: Vec<Velocity>,
-    pub residual: f64,
+}
+
+/// What it took.
+#[derive(Debug, Default)]
+pub(super) struct Work {
     pub solves: usize,
     pub counts: Counts,
+}
+
+/// One solve for given modes, with the first row of every member.
+struct Attempt {
+    starts: Vec<usize>,
+    problem: Problem,
+    solution: Solution,
 }
 
 /// One row: what is measured and what the variable pushes, each a wrench on the two bodies of a member.
@@ -81,31 +104,78 @@ const AGAINST: usize = 2;
 const SPEED: usize = 3;
 
 impl Island<'_> {
-    /// Solves for the velocities at the end of the step.
+    /// Solves for the velocities at the end of the step. None if it came down to resting contacts alone and was not solved
+    /// here: then another method may.
     ///
     /// # Errors
     /// [`Inconsistent`] where no forces were found.
-    pub fn solve(mut self) -> Result<Found, Inconsistent> {
-        let (mut counts, mut solves) = (Counts::default(), 0);
+    pub fn solve(mut self) -> Result<Option<Found>, Inconsistent> {
+        let mut work = Work::default();
         loop {
-            let (rows, starts) = self.rows();
-            let solved = self.problem(&rows, &starts).and_then(|problem| {
-                let solution = Lemke.solve(&problem, None, &Settings::default())?;
-                Ok((problem, solution))
-            });
-            let (problem, solution) = solved.map_err(|_| self.trouble())?;
-            if solution.status != Status::Solved {
-                return Err(self.inconsistent(&starts, &problem, &solution));
+            let attempt = self.attempt(&mut work)?;
+            if attempt.solution.status == Status::Solved {
+                let motion = self.motion(&attempt);
+                if self.stop_reversed(&motion) {
+                    continue;
+                }
+                return Ok(Some(self.found(&attempt, motion, work)));
             }
-            counts = counts + solution.counts;
-            solves += 1;
-            let impulses = self.impulses(&starts, &solution.z);
-            let velocities = self.velocities(&impulses);
-            if !self.stop_reversed(&impulses, &velocities) {
-                let residual = solution.residual;
-                return Ok(Found { members: self.members, impulses, velocities, residual, solves, counts });
+            if self.stop_slow() {
+                continue;
             }
+            if self.modes.iter().all(|mode| *mode == Mode::Rests) {
+                return Ok(None);
+            }
+            let refused = self.inconsistent(&attempt);
+            return self.solve_as_resting(refused, work);
         }
+    }
+
+    /// The last resort: with resting contacts alone Lemke's method finds a solution. Where it has what slid slide on, that
+    /// obeys the law of sliding too; where it stops it at once, these are no forces.
+    fn solve_as_resting(mut self, refused: Inconsistent, mut work: Work) -> Result<Option<Found>, Inconsistent> {
+        let slid = mem::replace(&mut self.modes, vec![Mode::Rests; self.members.len()]);
+        let attempt = self.attempt(&mut work)?;
+        let motion = self.motion(&attempt);
+        let slides_on = |(member, mode): (usize, &Mode)| match mode {
+            Mode::Slides(sign) if motion.impulses[member][0] > 0.0 => {
+                sign * self.sliding(member, &motion.velocities) > SLIDES
+            }
+            _ => true,
+        };
+        if attempt.solution.status == Status::Solved && slid.iter().enumerate().all(slides_on) {
+            return Ok(Some(self.found(&attempt, motion, work)));
+        }
+        Err(refused)
+    }
+
+    /// # Errors
+    /// [`Inconsistent`] if the matrix is not finite.
+    fn attempt(&self, work: &mut Work) -> Result<Attempt, Inconsistent> {
+        let (rows, starts) = self.rows();
+        let solved = self.problem(&rows, &starts).and_then(|problem| {
+            let solution = Lemke.solve(&problem, None, &Settings::default())?;
+            Ok(Attempt { starts, problem, solution })
+        });
+        let contact = self.approach(0).id;
+        let attempt = solved.map_err(|_| Inconsistent { contact, status: Status::NumericalTrouble.name() })?;
+        work.counts = work.counts + attempt.solution.counts;
+        work.solves += 1;
+        Ok(attempt)
+    }
+
+    fn motion(&self, attempt: &Attempt) -> IslandMotion {
+        let impulses = self.impulses(&attempt.starts, &attempt.solution.z);
+        IslandMotion { velocities: self.velocities(&impulses), impulses }
+    }
+
+    fn found(self, attempt: &Attempt, motion: IslandMotion, work: Work) -> Found {
+        Found { members: self.members, motion, residual: attempt.solution.residual, work }
+    }
+
+    /// Sliding speed of a member, with its sign, m/s.
+    fn sliding(&self, member: usize, velocities: &[Velocity]) -> f64 {
+        normal_and_tangential(self.approach(member), velocities)[1]
     }
 
     fn approach(&self, member: usize) -> &Approach {
@@ -212,20 +282,31 @@ impl Island<'_> {
     }
 
     /// Takes sliding contacts that bear and have come to slide the other way for resting ones. Whether there are any.
-    fn stop_reversed(&mut self, impulses: &[[f64; 2]], velocities: &[Velocity]) -> bool {
+    fn stop_reversed(&mut self, motion: &IslandMotion) -> bool {
         let reversed = |&member: &usize| {
-            let [_, u_t] = normal_and_tangential(self.approach(member), velocities);
-            let bears = impulses[member][0] > 0.0 && self.approach(member).friction > 0.0;
-            matches!(self.modes[member], Mode::Slides(sign) if bears && sign * u_t < 0.0)
+            let bears = motion.impulses[member][0] > 0.0 && self.approach(member).friction > 0.0;
+            matches!(self.modes[member], Mode::Slides(sign) if bears && sign * self.sliding(member, &motion.velocities) < 0.0)
         };
         let members: Vec<usize> = (0..self.members.len()).filter(reversed).collect();
+        self.stop(&members)
+    }
+
+    /// Takes slowly sliding contacts for resting ones. Whether there are any.
+    fn stop_slow(&mut self) -> bool {
+        let slow =
+            |&member: &usize| self.modes[member] != Mode::Rests && self.sliding(member, self.started).abs() < self.slow;
+        let members: Vec<usize> = (0..self.members.len()).filter(slow).collect();
+        self.stop(&members)
+    }
+
+    fn stop(&mut self, members: &[usize]) -> bool {
         members.iter().for_each(|&member| self.modes[member] = Mode::Rests);
         !members.is_empty()
     }
 
     /// The contact to blame: one that sinks in whatever the others do, which is a proof that there are no forces; else, of the
     /// sliding ones, that with the largest part in the ray on which the method ended.
-    fn inconsistent(&self, starts: &[usize], problem: &Problem, solution: &Solution) -> Inconsistent {
+    fn inconsistent(&self, Attempt { starts, problem, solution }: &Attempt) -> Inconsistent {
         let members = 0..self.members.len();
         if let Some(member) = members.clone().find(|&member| sinks(problem, starts[member])) {
             return Inconsistent { contact: self.approach(member).id, status: Status::NoSolution.name() };
@@ -240,10 +321,6 @@ impl Island<'_> {
         };
         let member = members.max_by(by_blame).unwrap_or(0);
         Inconsistent { contact: self.approach(member).id, status: solution.status.name() }
-    }
-
-    fn trouble(&self) -> Inconsistent {
-        Inconsistent { contact: self.approach(0).id, status: Status::NumericalTrouble.name() }
     }
 }
 
