@@ -5,6 +5,9 @@
 //! method ends in at most n - k major cycles. Valid when `M11` and `q1` are exactly the rows and columns of `M` and `q` on
 //! those indices; that is checked, because a start from another problem gives a violated row among them.
 
+use crate::{problem::Problem, scaling::Scaling};
+use faer::{Mat, linalg::solvers::Solve};
+
 /// A named start: `z` solves the principal sub-problem on `indices`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
@@ -75,6 +78,22 @@ pub enum StartError {
 const TOLERANCE: f64 = 1e-9;
 
 impl Start {
+    /// A start from a guess which rows have `z > 0`: `M_CC z_C = -q_C` on those rows C solves the sub-problem on them if no
+    /// `z` is negative. None if one is, or if the rows depend on one another. Any M; dense, by LU.
+    pub fn from_active(problem: &Problem, active: &[usize]) -> Option<Self> {
+        let k = active.len();
+        let block = Mat::from_fn(k, k, |i, j| problem.m().get(active[i], active[j]));
+        let right = Mat::from_fn(k, 1, |i, _| -problem.q()[active[i]]);
+        let solved = block.partial_piv_lu().solve(&right);
+        let d = Scaling::new(problem).d;
+        let size = (0..k).map(|i| (solved[(i, 0)] / d[active[i]]).abs().max((right[(i, 0)] * d[active[i]]).abs()));
+        let zero = TOLERANCE * size.fold(0.0, f64::max);
+        let rest = &right - &block * &solved;
+        let holds = |i: usize| (d[active[i]] * rest[(i, 0)]).abs() <= zero && solved[(i, 0)] / d[active[i]] >= -zero;
+        let z = (0..k).map(|i| solved[(i, 0)].max(0.0)).collect();
+        (0..k).all(holds).then_some(Self { indices: active.to_vec(), z })
+    }
+
     /// Checks what can be checked without the matrix.
     ///
     /// # Errors

@@ -25,7 +25,7 @@ use super::{
     formulation::Law,
     islands::Islands,
     reuse::Reuse,
-    sliding::{Found, Island, Mode},
+    sliding::{Carried, Found, Island, Mode},
     solve::Motion,
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
     world::World,
@@ -84,6 +84,7 @@ impl Law for AccelerationLevel {
                 free: &free,
                 offsets: &offsets,
                 inverse_mass: &world.inverse_mass,
+                carried: &world.carried,
                 slow: world.resting_speed(),
             };
             match island.solve() {
@@ -92,6 +93,10 @@ impl Law for AccelerationLevel {
             }
         }
         let time = begun.elapsed();
+        world.carried = Carried::default();
+        if world.options.reuse == Reuse::Full {
+            world.carried.add(found.iter().flat_map(|island: &Found| island.active.iter().cloned()));
+        }
 
         let mut motion = solve_others(world, contacts, &islands, (&free, &offsets), &found)?;
         motion.friction_error =

@@ -28,8 +28,9 @@ use super::{
     acceleration_level::{Inconsistent, SLIDES},
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential, wrench},
 };
-use crate::contact::approach::Approach;
-use drystone_lcp::{Counts, LcpError, Lemke, Method, Problem, Settings, Solution, Status};
+use crate::contact::{ContactId, approach::Approach};
+use drystone_lcp::{Counts, LcpError, Lemke, Method, Problem, Settings, Solution, Start, Status};
+use serde::{Deserialize, Serialize};
 use std::mem;
 
 /// What a contact does at the beginning of a step, after collisions.
@@ -53,6 +54,8 @@ pub(super) struct Island<'a> {
     pub free: &'a [Velocity],
     pub offsets: &'a [f64],
     pub inverse_mass: &'a [[f64; 3]],
+    /// What bore in the step before, to start from; nothing without reuse.
+    pub carried: &'a Carried,
     /// What slides more slowly may be stopped within the step by forces, m/s.
     pub slow: f64,
 }
@@ -63,6 +66,8 @@ pub(super) struct Found {
     pub motion: IslandMotion,
     pub residual: f64,
     pub work: Work,
+    /// Which rows of each member have forces.
+    pub active: Vec<(ContactId, Vec<bool>)>,
 }
 
 /// How an island moves.
@@ -78,6 +83,22 @@ pub(super) struct IslandMotion {
 pub(super) struct Work {
     pub solves: usize,
     pub counts: Counts,
+}
+
+/// Which rows of each contact had forces, in the order of identities: where the next step's solve of their island starts.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Carried(Vec<(ContactId, Vec<bool>)>);
+
+impl Carried {
+    pub fn add(&mut self, contacts: impl IntoIterator<Item = (ContactId, Vec<bool>)>) {
+        self.0.extend(contacts);
+        self.0.sort_by_key(|(id, _)| *id);
+    }
+
+    fn rows(&self, id: ContactId) -> Option<&[bool]> {
+        let place = self.0.binary_search_by_key(&id, |(id, _)| *id).ok()?;
+        Some(&self.0[place].1)
+    }
 }
 
 /// One solve for given modes, with the first row of every member.
@@ -102,6 +123,10 @@ const RESTING_ROWS: usize = 4;
 const ALONG: usize = 1;
 const AGAINST: usize = 2;
 const SPEED: usize = 3;
+
+/// A solve may take as many pivots a row. One or two are the rule; a path of more is lost in degenerate corners, and another
+/// attempt gets further.
+const PIVOTS_PER_ROW: usize = 10;
 
 impl Island<'_> {
     /// Solves for the velocities at the end of the step. None if it came down to resting contacts alone and was not solved
@@ -154,7 +179,14 @@ impl Island<'_> {
     fn attempt(&self, work: &mut Work) -> Result<Attempt, Inconsistent> {
         let (rows, starts) = self.rows();
         let solved = self.problem(&rows, &starts).and_then(|problem| {
-            let solution = Lemke.solve(&problem, None, &Settings::default())?;
+            let start = self.start(&starts).and_then(|active| Start::from_active(&problem, &active));
+            let limit = PIVOTS_PER_ROW * (problem.len() + 10);
+            let settings = Settings { pivot_limit: Some(limit), ..Settings::default() };
+            let solution = match Lemke.solve(&problem, start.as_ref(), &settings) {
+                // Its positive rows depend on one another.
+                Err(LcpError::Start(_)) => Lemke.solve(&problem, None, &settings)?,
+                solution => solution?,
+            };
             Ok(Attempt { starts, problem, solution })
         });
         let contact = self.approach(0).id;
@@ -164,13 +196,27 @@ impl Island<'_> {
         Ok(attempt)
     }
 
+    /// The rows that had forces in the step before, where the contacts that have rows of the same kind are known.
+    fn start(&self, starts: &[usize]) -> Option<Vec<usize>> {
+        let known = |member: usize| {
+            let first = starts[member];
+            let kind = |rows: &&[bool]| rows.len() == starts[member + 1] - first;
+            let rows = self.carried.rows(self.approach(member).id).filter(kind).unwrap_or_default();
+            rows.iter().enumerate().filter(|(_, bears)| **bears).map(move |(k, _)| first + k)
+        };
+        Some((0..self.members.len()).flat_map(known).collect::<Vec<_>>()).filter(|rows| !rows.is_empty())
+    }
+
     fn motion(&self, attempt: &Attempt) -> IslandMotion {
         let impulses = self.impulses(&attempt.starts, &attempt.solution.z);
         IslandMotion { velocities: self.velocities(&impulses), impulses }
     }
 
     fn found(self, attempt: &Attempt, motion: IslandMotion, work: Work) -> Found {
-        Found { members: self.members, motion, residual: attempt.solution.residual, work }
+        let rows = |member: usize| attempt.starts[member]..attempt.starts[member + 1];
+        let bears = |member: usize| rows(member).map(|row| attempt.solution.z[row] > 0.0).collect();
+        let active = (0..self.members.len()).map(|member| (self.approach(member).id, bears(member))).collect();
+        Found { members: self.members, motion, residual: attempt.solution.residual, work, active }
     }
 
     /// Sliding speed of a member, with its sign, m/s.

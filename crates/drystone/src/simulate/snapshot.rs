@@ -7,6 +7,7 @@ use super::{
     error::SimulationError,
     formulation::Formulation,
     reuse::{Kept, Reuse},
+    sliding::Carried,
     velocity_level::{Velocity, VelocityLevel},
     world::{Options, World},
 };
@@ -35,6 +36,8 @@ struct Saved {
     sliding: Vec<f64>,
     impulses: Vec<[f64; 2]>,
     kept: Kept,
+    #[serde(default)]
+    carried: Carried,
 }
 
 impl World {
@@ -56,6 +59,7 @@ impl World {
             sliding: self.sliding.clone(),
             impulses: self.impulses.clone(),
             kept: self.route.kept(),
+            carried: self.carried.clone(),
         };
         serde_json::to_vec(&saved).expect("numbers and names are always written")
     }
@@ -93,6 +97,7 @@ impl World {
         world.before = saved.before.map(VelocityLevel::new);
         world.sliding = saved.sliding;
         world.impulses = saved.impulses;
+        world.carried = saved.carried;
         if let Some(before) = &world.before {
             let matrix = |q: Vec<f64>| before.problem(&world.inverse_mass, q);
             world.route.take_up(&saved.kept, &matrix).map_err(|error| fault(error.to_string()))?;

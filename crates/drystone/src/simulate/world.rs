@@ -4,6 +4,7 @@ use super::{
     error::SimulationError,
     formulation::Formulation,
     reuse::{Reuse, Route},
+    sliding::Carried,
     velocity_level::{Velocity, VelocityLevel},
 };
 use crate::{
@@ -61,6 +62,8 @@ pub struct World {
     pub(super) sliding: Vec<f64>,
     /// Impulse at each of its approaches, along the normal and the tangent, N s.
     pub(super) impulses: Vec<[f64; 2]>,
+    /// On the acceleration level with full reuse: where solves of islands with sliding contacts start.
+    pub(super) carried: Carried,
 }
 
 /// What one block gave another in the last step.
@@ -117,6 +120,7 @@ impl World {
             before: None,
             sliding: Vec::new(),
             impulses: Vec::new(),
+            carried: Carried::default(),
             options,
             scene,
         };
@@ -318,6 +322,7 @@ impl World {
         self.before = None;
         self.sliding.clear();
         self.impulses.clear();
+        self.carried = Carried::default();
     }
 
     /// A number for the state: equal for equal places, velocities, pending forces and step counts, to the bit.

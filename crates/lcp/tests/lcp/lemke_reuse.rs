@@ -214,3 +214,32 @@ fn a_growing_wall_takes_fewer_pivots() {
         assert!(5 * reused < cold, "{reused} with reuse, {cold} from scratch");
     }
 }
+
+/// A guess of the active rows: the right one is a solution, a wrong one is a valid start or none. Dependent rows are none.
+#[test]
+fn a_guess_of_the_active_rows_starts_or_is_refused() {
+    let mut rng = random(11);
+    let (mut starts, mut refused) = (0, 0);
+    for _ in 0..300 {
+        let n = rng.random_range(1..=8);
+        let problem = problem(&skewed(&mut rng, n, n, false), vector(&mut rng, n));
+        let solution = lemke(&problem, None).unwrap();
+        let active: Vec<usize> = (0..n).filter(|&i| solution.z[i] > 0.0).collect();
+        let right = Start::from_active(&problem, &active).expect("the solution's own rows");
+        let again = lemke(&problem, Some(&right)).unwrap();
+        assert_eq!((again.status, again.counts.pivots), (Status::Solved, 0));
+        let guess: Vec<usize> = (0..n).filter(|_| rng.random()).collect();
+        match Start::from_active(&problem, &guess) {
+            Some(start) => {
+                starts += 1;
+                let other = lemke(&problem, Some(&start)).unwrap();
+                assert_eq!(other.status, Status::Solved);
+                other.z.iter().zip(&solution.z).for_each(|(a, b)| assert!((a - b).abs() <= 1e-8, "{a} and {b}"));
+            }
+            None => refused += 1,
+        }
+    }
+    assert!(starts > 50 && refused > 50, "{starts} and {refused}");
+    let dependent = problem(&[1.0, 1.0, 1.0, 1.0], vec![-1.0, -2.0]);
+    assert_eq!(Start::from_active(&dependent, &[0, 1]), None);
+}
