@@ -125,6 +125,8 @@ BAD = {
     "no such file": (["check", "nowhere.json"], ["nowhere.json"]),
     "a folder": (["check", "."], ["."]),
     "no such scene": (["plan", "colum:3"], ["colum"]),
+    "a scene mistyped": (["simulate", "fallng_column"], ["did you mean", "falling_column"]),
+    "a scene mistyped, with parameters": (["check", "colunm:3"], ["colunm:3", '"column"']),
     "no such parameter": (["plan", "column:m=3"], ["column", "m", "n"]),
     "a parameter too many": (["plan", "column:3,0,7"], ["column", "7"]),
     "a parameter that is no number": (["plan", "column:many"], ["column", "n", "many"]),

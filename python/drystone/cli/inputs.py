@@ -21,10 +21,24 @@ def load_scene(text: str) -> Scene:
 
     name, _, parameters = text.partition(":")
     builder = getattr(scenes, python_name(name), None)
-    if not Path(text).exists() and python_name(name) in scenes.__all__ and builder is not None:
-        return built(builder, parameters)
+    if not Path(text).exists():
+        if python_name(name) in scenes.__all__ and builder is not None:
+            return built(builder, parameters)
+        if Path(name).name == name and not Path(name).suffix:
+            raise _neither(text, python_name(name))
     with reporting_files():
         return Scene.load(text)
+
+
+def _neither(text: str, name: str) -> InputError:
+    """What to say of a word that is no file; the nearest scene's name with it."""
+    from drystone import _core, scenes
+
+    try:
+        scenes._built(name)
+    except _core.SceneError as error:
+        return InputError(f"{text}: no such file, and {error}")
+    return InputError(f"{text}: no such file")
 
 
 def built(builder: Callable[..., Scene], text: str) -> Scene:
