@@ -15,12 +15,11 @@ import drystone as ds
 from measure import Measured
 from scenes import Row
 
+WHERE = ("version", "date", "machine", "cpu", "load")
+"""What every line of every file begins with."""
+
 COLUMNS = (
-    "version",
-    "date",
-    "machine",
-    "cpu",
-    "load",
+    *WHERE,
     "scene",
     "blocks",
     "generators",
@@ -100,24 +99,23 @@ def path_in(folder: Path) -> Path:
 
 
 def write(path: Path, cases: Iterable[Case]) -> None:
-    """Write the file anew, whole or not at all."""
+    """Write the file of stability tests anew."""
+    write_lines(path, COLUMNS, (line for case in cases for line in _lines(case)))
+
+
+def write_lines(path: Path, columns: Iterable[str], lines: Iterable[dict[str, object]]) -> None:
+    """Write a file anew, whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.with_suffix(".unfinished")
     with unfinished.open("w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        writer = csv.DictWriter(file, list(columns), lineterminator="\n")
         writer.writeheader()
-        for case in cases:
-            writer.writerows(_lines(case))
+        writer.writerows(lines)
     unfinished.replace(path)
 
 
 def _lines(case: Case) -> Iterator[dict[str, object]]:
-    common = {
-        "version": ds.__version__,
-        "date": datetime.date.today().isoformat(),
-        "machine": machine(),
-        "cpu": _cpu(),
-        "load": _number(case.load, 2),
+    common = where(case.load) | {
         "scene": case.row.scene,
         "blocks": case.blocks,
         "generators": case.generators,
@@ -134,23 +132,35 @@ def _lines(case: Case) -> Iterator[dict[str, object]]:
             "missing": r.missing,
             "checked": r.checked,
             "wrong": r.wrong,
-            "residual": _number(r.residual, 3),
+            "residual": number(r.residual, 3),
             "inaccurate": r.inaccurate,
-            "seconds": _number(r.seconds, 5),
-            "seconds_least": _number(r.least, 5),
-            "seconds_most": _number(max(r.times, default=math.nan), 5),
+            "seconds": number(r.seconds, 5),
+            "seconds_least": number(r.least, 5),
+            "seconds_most": number(max(r.times, default=math.nan), 5),
             "rounds": len(r.times),
-            "ratio_to_reuse": _number(case.ratio(r), 4),
-            "ratio_of_least": _number(case.ratio_of_least(r), 4),
+            "ratio_to_reuse": number(case.ratio(r), 4),
+            "ratio_of_least": number(case.ratio_of_least(r), 4),
             "iterations": r.iterations,
             "entries": "" if r.entries is None else r.entries,
-            "memory_mb": _number(r.memory, 3),
+            "memory_mb": number(r.memory, 3),
             "cut_off": r.cut_off,
             "refused": r.refused,
         }
 
 
-def _number(value: float, digits: int) -> str:
+def where(load: float) -> dict[str, object]:
+    """The columns of `WHERE`, today and here."""
+    return {
+        "version": ds.__version__,
+        "date": datetime.date.today().isoformat(),
+        "machine": machine(),
+        "cpu": _cpu(),
+        "load": number(load, 2),
+    }
+
+
+def number(value: float, digits: int) -> str:
+    """A number for a table; nothing for NaN."""
     return "" if math.isnan(value) else f"{value:.{digits}g}"
 
 

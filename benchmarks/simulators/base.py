@@ -1,0 +1,46 @@
+"""What a simulator is: something that moves a scene and says how long its steps took."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import drystone as ds
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """A scene simulated once."""
+
+    seconds: float
+    """All steps, and nothing but the steps: no set-up, no recording."""
+    frames: NDArray[np.float64]
+    """(k, n, 6): x, y (m), angle (rad) and their rates, at first and every so many steps."""
+    stopped: str = ""
+    """Why it did not get to the end; empty if it did."""
+
+
+class Simulator(ABC):
+    """A way to move a scene."""
+
+    name: str
+    """In tables and results."""
+
+    @abstractmethod
+    def version(self) -> str:
+        """The version measured; empty if it is not installed."""
+
+    @abstractmethod
+    def missing(self) -> str:
+        """What has to be installed for it; empty if it is there."""
+
+    def prepare(self) -> None:
+        """Whatever must be done once before it can run."""
+        return
+
+    @abstractmethod
+    def run(self, scene: ds.Scene, dt: float, steps: int, every: int) -> Motion:
+        """Make `steps` steps of `dt` seconds, and look at the bodies after each `every`."""

@@ -1,0 +1,87 @@
+"""MuJoCo: boxes one metre deep, each on two slides and a hinge; pyramidal friction cones.
+
+Its settings are its own (Newton's method, Euler integration) but for the time step and the
+friction. It never sleeps.
+
+Timed: `mj_step` with the number of steps between two looks, by a clock around the call. The call
+itself costs a microsecond or two, once for all these steps.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+import drystone as ds
+from simulators.base import Motion, Simulator
+
+DEPTH = 1.0
+"""Metres: a box has the mass and the inertia of its rectangle."""
+
+
+class MuJoCo(Simulator):
+    """`mujoco` from PyPI."""
+
+    name = "MuJoCo"
+
+    def version(self) -> str:
+        """See `Simulator.version`."""
+        try:
+            return metadata.version("mujoco")
+        except metadata.PackageNotFoundError:
+            return ""
+
+    def missing(self) -> str:
+        """See `Simulator.missing`."""
+        return "" if self.version() else "the Python package mujoco is not installed"
+
+    def run(self, scene: ds.Scene, dt: float, steps: int, every: int) -> Motion:
+        """See `Simulator.run`."""
+        import mujoco
+
+        bodies = json.loads(scene.to_json())["bodies"]
+        model = mujoco.MjModel.from_xml_string(_xml(scene, bodies, dt))
+        data = mujoco.MjData(model)
+        frames = [_states(bodies, data)]
+        seconds = 0.0
+        for _ in range(steps // every):
+            begin = time.perf_counter()
+            mujoco.mj_step(model, data, nstep=every)
+            seconds += time.perf_counter() - begin
+            frames.append(_states(bodies, data))
+        return Motion(seconds, np.array(frames))
+
+
+def _xml(scene: ds.Scene, bodies: list[dict[str, Any]], dt: float) -> str:
+    """The plane is MuJoCo's x and z. Its y axis points away, so that angles change sign."""
+    gx, gy = scene.gravity
+    return f"""<mujoco>
+  <compiler angle="radian"/>
+  <option timestep="{dt!r}" gravity="{gx!r} 0 {gy!r}" cone="pyramidal"/>
+  <size memory="500M"/>
+  <default><geom type="box" condim="3"/></default>
+  <worldbody>{"".join(_body(body, scene.friction) for body in bodies)}</worldbody>
+</mujoco>"""
+
+
+def _body(body: dict[str, Any], friction: float) -> str:
+    (x, y), (width, height) = body["position"], body["box"]["size"]
+    geom = (
+        f'<geom size="{width / 2!r} {DEPTH / 2!r} {height / 2!r}" density="{body["density"]!r}"'
+        f' friction="{body.get("friction", friction)!r} 0 0" euler="0 {-body["angle"]!r} 0"/>'
+    )
+    joints = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'
+    joints += '<joint type="hinge" axis="0 -1 0"/>'
+    return f'<body pos="{x!r} 0 {y!r}">{"" if body["fixed"] else joints}{geom}</body>'
+
+
+def _states(bodies: list[dict[str, Any]], data: Any) -> list[list[float]]:
+    """Joints count from where the body was put. It is the geom that is turned there, not the body:
+    slides go along the axes of the body as it was put."""
+    moved = iter(np.hstack([data.qpos.reshape(-1, 3), data.qvel.reshape(-1, 3)]))
+    begin = [np.array([*body["position"], body["angle"], 0, 0, 0], dtype=float) for body in bodies]
+    return [b if body["fixed"] else b + next(moved) for body, b in zip(bodies, begin, strict=True)]

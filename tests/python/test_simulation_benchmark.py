@@ -1,0 +1,83 @@
+"""The simulation benchmark: its measures, and that every simulator moves the scene it is given."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import drystone as ds
+
+BENCHMARKS = str(Path(__file__).parents[2] / "benchmarks")
+sys.path.insert(0, BENCHMARKS)
+
+import judge  # noqa: E402
+import simulation  # noqa: E402
+from simulators import SIMULATORS  # noqa: E402
+
+sys.path.remove(BENCHMARKS)
+
+
+def _two(offset: float, angle: float = 0.0) -> tuple[judge.Boxes, np.ndarray]:
+    """Unit squares whose centres are so far apart, the second one turned."""
+    scene = ds.Scene()
+    scene.add_box(center=(0, 0), size=(1, 1), name="left", density=2.0)
+    scene.add_box(center=(3, 0), size=(1, 1), name="right")
+    frame = np.zeros((1, 2, 6))
+    frame[0, 1, :3] = offset, 0.0, angle
+    return judge.Boxes.of(scene), frame
+
+
+@pytest.mark.parametrize(
+    ("offset", "angle", "depth"),
+    [(1.25, 0.0, 0.0), (0.75, 0.0, 0.25), (1.0, math.pi / 4, 0.5**0.5 - 0.5), (1.25, 0.78, 0.0)],
+)
+def test_penetration_of_two_squares(offset: float, angle: float, depth: float) -> None:
+    assert judge.penetration(*_two(offset, angle)) == pytest.approx(depth, abs=1e-15)
+
+
+def test_energy_rise_and_displacement() -> None:
+    boxes, frame = _two(1.5)
+    frames = np.repeat(frame, 4, axis=0)
+    frames[:, 0, 1] = 0.0, -0.5, -0.25, -0.5  # Falls, rises by a quarter of a metre, falls again.
+    frames[3, 1, 5] = 1.0  # And the other begins to turn.
+    assert judge.energy_rise(boxes, frames) == pytest.approx(2.0 * 9.81 * 0.25)
+    assert judge.displacement(frames, np.array([True, False])) == 0.5
+    assert math.isnan(judge.displacement(frames, np.array([False, False])))
+
+
+@pytest.mark.parametrize("key", SIMULATORS)
+def test_every_simulator_moves_the_scene(key: str) -> None:
+    """A turned box falls freely for a twentieth of a second, at the rates said."""
+    simulator = SIMULATORS[key]
+    if simulator.missing():
+        pytest.skip(simulator.missing())
+    if key == "rapier" and not simulator.built():
+        pytest.skip("benchmarks/rapier is not built")
+    scene = ds.Scene(friction=0.5)
+    scene.add_box(center=(0, -0.5), size=(9, 1), name="ground", fixed=True)
+    scene.add_box(center=(1, 2), size=(1, 0.5), angle=0.25, name="block")
+    motion = simulator.run(scene, 0.001, 50, 25)
+    assert not motion.stopped
+    assert motion.seconds > 0
+    begin, end = motion.frames[0], motion.frames[-1]
+    assert len(motion.frames) == 3
+    assert begin[1] == pytest.approx([1, 2, 0.25, 0, 0, 0])
+    assert end[0] == pytest.approx([0, -0.5, 0, 0, 0, 0])
+    fallen = 0.5 * 9.81 * 0.05**2
+    assert end[1] == pytest.approx([1, 2 - fallen, 0.25, 0, -9.81 * 0.05, 0], abs=3e-4)
+
+
+def test_a_scene_measured_in_turns() -> None:
+    peers = {key: SIMULATORS[key] for key in ("full", "none")}
+    case = simulation.measure("fall7", 240, peers, rounds=2)
+    assert case.blocks == 7
+    for result in case.results.values():
+        assert len(result.times) == 2
+        assert (result.displacement, result.stopped) == (0.0, "")
+        assert result.penetration < 1e-12
+        assert result.energy_rise < 1e-9
+    assert case.ratio(case.results["full"]) == 1.0
