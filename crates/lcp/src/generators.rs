@@ -27,7 +27,7 @@ impl Problem {
     /// # Errors
     /// [`LcpError::GeneratorShape`], [`LcpError::InverseMass`]; as [`Self::new`] for `q`.
     pub fn from_generators_and_q(g: &Columns, inverse_mass: &[f64], q: Vec<f64>) -> Result<Self, LcpError> {
-        require_fit(g, inverse_mass, &vec![0.0; g.rows()])?;
+        require_weights(g, inverse_mass, g.rows())?;
         Self::of_gram(gram(g, inverse_mass)?, q)
     }
 }
@@ -35,44 +35,48 @@ impl Problem {
 /// `G' W G`, symmetric to the last bit.
 fn gram(g: &Columns, inverse_mass: &[f64]) -> Result<SparseColumns, LcpError> {
     let n = g.len();
-    let mut by_row: Vec<Vec<(usize, f64)>> = vec![Vec::new(); g.rows()];
-    for j in 0..n {
-        for &(row, value) in g.column(j as u32) {
-            by_row[row as usize].push((j, value));
-        }
-    }
-    let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+    let products = (0..n).flat_map(|j| g.column(j as u32)).map(|&(row, _)| g.columns_of(row).len()).sum();
+    let mut indptr = Vec::with_capacity(n + 1);
+    let (mut indices, mut data) = (Vec::with_capacity(products), Vec::with_capacity(products));
+    indptr.push(0);
     let mut sum = vec![0.0; n];
     let mut seen = vec![usize::MAX; n];
     for j in 0..n {
         let start = indices.len();
         for &(row, value) in g.column(j as u32) {
-            for &(i, other) in &by_row[row as usize] {
+            let weight = inverse_mass[row as usize];
+            for &(i, other) in g.columns_of(row) {
+                let i = i as usize;
                 if std::mem::replace(&mut seen[i], j) != j {
                     sum[i] = 0.0;
                     indices.push(i);
                 }
                 // The two values first: the product is then the same for [i, j] and [j, i].
-                sum[i] += other * value * inverse_mass[row as usize];
+                sum[i] += other * value * weight;
             }
         }
         indices[start..].sort_unstable();
         data.extend(indices[start..].iter().map(|&i| sum[i]));
         indptr.push(indices.len());
     }
-    SparseColumns::new(n, indptr, indices, data)
+    SparseColumns::sorted(indptr, indices, data)
 }
 
 fn require_fit(g: &Columns, inverse_mass: &[f64], h: &[f64]) -> Result<(), LcpError> {
-    let (inverse_masses, loads) = (inverse_mass.len(), h.len());
+    require_weights(g, inverse_mass, h.len())?;
+    match h.iter().position(|value| !value.is_finite()) {
+        Some(row) => Err(LcpError::LoadNotFinite { row, value: h[row] }),
+        None => Ok(()),
+    }
+}
+
+fn require_weights(g: &Columns, inverse_mass: &[f64], loads: usize) -> Result<(), LcpError> {
+    let inverse_masses = inverse_mass.len();
     if inverse_masses != g.rows() || loads != g.rows() {
         return Err(LcpError::GeneratorShape { rows: g.rows(), inverse_masses, loads });
     }
-    if let Some(row) = inverse_mass.iter().position(|value| !value.is_finite() || *value < 0.0) {
-        return Err(LcpError::InverseMass { row, value: inverse_mass[row] });
+    match inverse_mass.iter().position(|value| !value.is_finite() || *value < 0.0) {
+        Some(row) => Err(LcpError::InverseMass { row, value: inverse_mass[row] }),
+        None => Ok(()),
     }
-    if let Some(row) = h.iter().position(|value| !value.is_finite()) {
-        return Err(LcpError::LoadNotFinite { row, value: h[row] });
-    }
-    Ok(())
 }

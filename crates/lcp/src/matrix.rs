@@ -37,18 +37,26 @@ impl SparseColumns {
         let mut matrix = Self { n, indptr, indices, data };
         matrix.sort_columns();
         for j in 0..n {
-            let (rows, values) = matrix.column(j);
+            let (rows, _) = matrix.column(j);
             if let Some(&row) = rows.iter().find(|&&row| row >= n) {
                 return structure(format!("row index {row} in column {j} of a matrix with {n} rows"));
             }
             if let Some(pair) = rows.windows(2).find(|pair| pair[0] == pair[1]) {
                 return structure(format!("entry [{}, {j}] is given twice", pair[0]));
             }
-            if let Some((&row, &value)) = rows.iter().zip(values).find(|(_, value)| !value.is_finite()) {
-                return Err(LcpError::MatrixNotFinite { row, column: j, value });
-            }
         }
-        Ok(matrix)
+        matrix.finite()
+    }
+
+    /// The same of arrays that were made in order: only the values are looked at.
+    pub(crate) fn sorted(indptr: Vec<usize>, indices: Vec<usize>, data: Vec<f64>) -> Result<Self, LcpError> {
+        Self { n: indptr.len() - 1, indptr, indices, data }.finite()
+    }
+
+    fn finite(self) -> Result<Self, LcpError> {
+        let Some(place) = self.data.iter().position(|value| !value.is_finite()) else { return Ok(self) };
+        let column = self.indptr.partition_point(|&start| start <= place) - 1;
+        Err(LcpError::MatrixNotFinite { row: self.indices[place], column, value: self.data[place] })
     }
 
     /// Takes a dense matrix, n x n in row-major order, and stores its nonzero entries.

@@ -388,11 +388,16 @@ impl Solver {
         let mut rounds = 0;
         let mut repairs = [Self::refactor, Self::restart].into_iter();
         loop {
-            if !self.settled {
+            let changed = !self.settled;
+            if changed {
                 self.settle();
             }
-            match self.drive_all(limit, go_on)? {
-                Cycle::Feasible => match self.recompute() {
+            let cycles = self.counts.major_cycles;
+            let cycle = self.drive_all(limit, go_on)?;
+            // Settling has computed w from z.
+            let fresh = changed && cycles == self.counts.major_cycles;
+            match cycle {
+                Cycle::Feasible => match if fresh { self.check() } else { self.recompute() } {
                     Checked::Solved => return Ok(Some(Status::Solved)),
                     Checked::StillViolated if rounds < ROUNDS => {
                         rounds += 1;

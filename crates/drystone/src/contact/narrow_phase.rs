@@ -50,8 +50,7 @@ pub(super) struct Outline {
 
 impl Outline {
     pub fn of(body: &Body) -> Self {
-        let turned = body.shape.vertices().iter().map(|&v| body.pose.rotate(v));
-        let vertices: Vec<Vector> = turned.collect();
+        let vertices: Vec<Vector> = body.shape.vertices().iter().copied().map(body.pose.turn()).collect();
         let n = vertices.len();
         let normal = |k: usize| -(vertices[(k + 1) % n] - vertices[k]).normalize_or_zero().perp();
         let normals = (0..n).map(normal).collect();

@@ -64,6 +64,7 @@ pub struct Polygon {
     area: f64,
     second_moment: f64,
     width: f64,
+    radius: f64,
 }
 
 impl Polygon {
@@ -98,7 +99,8 @@ impl Polygon {
         let (area, _) = details::convex_polygon_area_and_center_of_mass(&vertices);
         let second_moment = MassProperties::from_convex_polygon(1.0, &vertices).principal_inertia();
         let width = least_width(&vertices);
-        Self { vertices, area, second_moment, width }
+        let radius = vertices.iter().fold(0.0, |radius, v| v.length().max(radius));
+        Self { vertices, area, second_moment, width, radius }
     }
 
     /// The corners relative to the centroid, metres, counter-clockwise.
@@ -130,7 +132,7 @@ impl Shape for Polygon {
     }
 
     fn radius(&self) -> f64 {
-        self.vertices.iter().fold(0.0, |radius, v| v.length().max(radius))
+        self.radius
     }
 
     fn width(&self) -> f64 {

@@ -14,8 +14,13 @@ pub struct Pose {
 impl Pose {
     /// The turned vector `R(angle) x`, without the shift.
     pub fn rotate(&self, x: Vector) -> Vector {
+        self.turn()(x)
+    }
+
+    /// [`Self::rotate`] for many vectors.
+    pub fn turn(&self) -> impl Fn(Vector) -> Vector + use<> {
         let (sin, cos) = self.angle.sin_cos();
-        Vector::new(cos * x.x - sin * x.y, sin * x.x + cos * x.y)
+        move |x| Vector::new(cos * x.x - sin * x.y, sin * x.x + cos * x.y)
     }
 
     /// World position of the body's point `x`.

@@ -31,16 +31,21 @@ pub(super) struct VelocityLevel {
     starts: Vec<usize>,
     /// Unit direction of every row.
     directions: Vec<[f64; 2]>,
+    /// `sqrt(1 + mu^2)` of every approach.
+    edge_lengths: Vec<f64>,
 }
 
 impl VelocityLevel {
     pub fn new(approaches: Vec<Approach>) -> Self {
-        let (mut starts, mut directions) = (vec![0], Vec::new());
+        let mut starts = Vec::with_capacity(approaches.len() + 1);
+        let mut directions = Vec::with_capacity(2 * approaches.len());
+        starts.push(0);
         for approach in &approaches {
             directions.extend(cone_edges(approach.normal, approach.friction));
             starts.push(directions.len());
         }
-        Self { approaches, starts, directions }
+        let edge_lengths = approaches.iter().map(|approach| approach.friction.hypot(1.0)).collect();
+        Self { approaches, starts, directions, edge_lengths }
     }
 
     pub fn approaches(&self) -> &[Approach] {
@@ -59,7 +64,9 @@ impl VelocityLevel {
 
     /// `A = G' M^-1 G` and q. `inverse_mass`: the diagonal of M^-1, three entries a body, zero for a fixed one.
     pub fn problem(&self, inverse_mass: &[[f64; 3]], q: Vec<f64>) -> Result<Problem, LcpError> {
-        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        let mut indptr = Vec::with_capacity(self.len() + 1);
+        let (mut indices, mut data) = (Vec::with_capacity(6 * self.len()), Vec::with_capacity(6 * self.len()));
+        indptr.push(0);
         for (k, approach) in self.approaches.iter().enumerate() {
             for row in self.rows(k) {
                 for (side, sign) in [(0, -1.0), (1, 1.0)] {
@@ -81,7 +88,7 @@ impl VelocityLevel {
         let mut q = Vec::with_capacity(self.len());
         for (k, approach) in self.approaches.iter().enumerate() {
             let [ux, uy] = relative_velocity(approach, free);
-            let lift = (c[k] + approach.friction * s[k]) / approach.friction.hypot(1.0);
+            let lift = (c[k] + approach.friction * s[k]) / self.edge_lengths[k];
             q.extend(self.rows(k).map(|row| {
                 let [dx, dy] = self.directions[row];
                 dx * ux + dy * uy + lift

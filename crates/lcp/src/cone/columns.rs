@@ -28,15 +28,16 @@ impl Columns {
         if let Some(row) = indices.iter().find(|&&row| row >= rows) {
             return structure(format!("row index {row} in a matrix with {rows} rows"));
         }
+        let mut latest = vec![usize::MAX; rows];
         for column in 0..indptr.len() - 1 {
-            let range = indptr[column]..indptr[column + 1];
-            if let Some(p) = range.clone().find(|&p| !data[p].is_finite()) {
-                return Err(LcpError::MatrixNotFinite { row: indices[p], column, value: data[p] });
-            }
-            let mut seen: Vec<usize> = indices[range].to_vec();
-            seen.sort_unstable();
-            if let Some(pair) = seen.windows(2).find(|pair| pair[0] == pair[1]) {
-                return structure(format!("entry [{}, {column}] is given twice", pair[0]));
+            for p in indptr[column]..indptr[column + 1] {
+                let (row, value) = (indices[p], data[p]);
+                if !value.is_finite() {
+                    return Err(LcpError::MatrixNotFinite { row, column, value });
+                }
+                if std::mem::replace(&mut latest[row], column) == column {
+                    return structure(format!("entry [{row}, {column}] is given twice"));
+                }
             }
         }
         let mut row_starts = vec![0; rows + 1];

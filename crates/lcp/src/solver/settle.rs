@@ -51,12 +51,17 @@ impl Solver {
         self.settled = true;
     }
 
-    /// Recomputes every `w`, moves the active `z` so that the active `w` vanish, and judges the result.
+    /// Recomputes every `w`, then as [`Self::check`].
     pub(super) fn recompute(&mut self) -> Checked {
         for z in &mut self.z {
             *z = z.max(0.0);
         }
         self.recompute_w();
+        self.check()
+    }
+
+    /// Moves the active `z` so that the active `w` vanish, and judges the result. `w` has just been computed from `z`.
+    pub(super) fn check(&mut self) -> Checked {
         if self.active_residual() > ROUNDING * self.own_scale() && !self.settle_active() {
             return Checked::LostAccuracy;
         }
