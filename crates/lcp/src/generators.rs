@@ -30,36 +30,87 @@ impl Problem {
         require_weights(g, inverse_mass, g.rows())?;
         Self::of_gram(gram(g, inverse_mass)?, q)
     }
+
+    /// The same where only the generators in `moved` (n) are other than those of this problem, with entries in the rows that
+    /// they had. Every number is the one that [`Self::from_generators_and_q`] gives, to the bit; products of two generators
+    /// that did not move are not made again.
+    ///
+    /// # Errors
+    /// As [`Self::from_generators_and_q`].
+    pub fn with_moved_generators(
+        &self,
+        g: &Columns,
+        moved: &[bool],
+        inverse_mass: &[f64],
+        q: Vec<f64>,
+    ) -> Result<Self, LcpError> {
+        if !self.is_gram() || moved.len() != self.len() || g.len() != self.len() {
+            return Self::from_generators_and_q(g, inverse_mass, q);
+        }
+        require_weights(g, inverse_mass, g.rows())?;
+        let mut m = self.m().clone();
+        let mut products = Products::new(g, inverse_mass);
+        for j in (0..g.len()).filter(|&j| moved[j]) {
+            products.multiply(j);
+            if !m.replace_symmetrically(j, &products.reached, &products.sum) {
+                return Self::from_generators_and_q(g, inverse_mass, q);
+            }
+        }
+        Self::of_gram(m.finite()?, q)
+    }
 }
 
 /// `G' W G`, symmetric to the last bit.
 fn gram(g: &Columns, inverse_mass: &[f64]) -> Result<SparseColumns, LcpError> {
     let n = g.len();
-    let products = (0..n).flat_map(|j| g.column(j as u32)).map(|&(row, _)| g.columns_of(row).len()).sum();
+    let most = (0..n).flat_map(|j| g.column(j as u32)).map(|&(row, _)| g.columns_of(row).len()).sum();
     let mut indptr = Vec::with_capacity(n + 1);
-    let (mut indices, mut data) = (Vec::with_capacity(products), Vec::with_capacity(products));
+    let (mut indices, mut data) = (Vec::with_capacity(most), Vec::with_capacity(most));
     indptr.push(0);
-    let mut sum = vec![0.0; n];
-    let mut seen = vec![usize::MAX; n];
+    let mut products = Products::new(g, inverse_mass);
     for j in 0..n {
-        let start = indices.len();
-        for &(row, value) in g.column(j as u32) {
-            let weight = inverse_mass[row as usize];
-            for &(i, other) in g.columns_of(row) {
-                let i = i as usize;
-                if std::mem::replace(&mut seen[i], j) != j {
-                    sum[i] = 0.0;
-                    indices.push(i);
-                }
-                // The two values first: the product is then the same for [i, j] and [j, i].
-                sum[i] += other * value * weight;
-            }
-        }
-        indices[start..].sort_unstable();
-        data.extend(indices[start..].iter().map(|&i| sum[i]));
+        products.multiply(j);
+        indices.extend_from_slice(&products.reached);
+        data.extend(products.reached.iter().map(|&i| products.sum[i]));
         indptr.push(indices.len());
     }
     SparseColumns::sorted(indptr, indices, data)
+}
+
+/// One column of `G' W G` at a time.
+struct Products<'a> {
+    g: &'a Columns,
+    inverse_mass: &'a [f64],
+    /// The column (n), where it may differ from zero.
+    sum: Vec<f64>,
+    /// Where that is, ascending.
+    reached: Vec<usize>,
+    /// The column for which each entry was begun last.
+    begun: Vec<usize>,
+}
+
+impl<'a> Products<'a> {
+    fn new(g: &'a Columns, inverse_mass: &'a [f64]) -> Self {
+        let n = g.len();
+        Self { g, inverse_mass, sum: vec![0.0; n], reached: Vec::new(), begun: vec![usize::MAX; n] }
+    }
+
+    fn multiply(&mut self, j: usize) {
+        self.reached.clear();
+        for &(row, value) in self.g.column(j as u32) {
+            let weight = self.inverse_mass[row as usize];
+            for &(i, other) in self.g.columns_of(row) {
+                let i = i as usize;
+                if std::mem::replace(&mut self.begun[i], j) != j {
+                    self.sum[i] = 0.0;
+                    self.reached.push(i);
+                }
+                // The two values first: the product is then the same for [i, j] and [j, i].
+                self.sum[i] += other * value * weight;
+            }
+        }
+        self.reached.sort_unstable();
+    }
 }
 
 fn require_fit(g: &Columns, inverse_mass: &[f64], h: &[f64]) -> Result<(), LcpError> {

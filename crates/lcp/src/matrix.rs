@@ -53,7 +53,8 @@ impl SparseColumns {
         Self { n: indptr.len() - 1, indptr, indices, data }.finite()
     }
 
-    fn finite(self) -> Result<Self, LcpError> {
+    /// Checks that every value is a number.
+    pub(crate) fn finite(self) -> Result<Self, LcpError> {
         let Some(place) = self.data.iter().position(|value| !value.is_finite()) else { return Ok(self) };
         let column = self.indptr.partition_point(|&start| start <= place) - 1;
         Err(LcpError::MatrixNotFinite { row: self.indices[place], column, value: self.data[place] })
@@ -132,6 +133,22 @@ impl SparseColumns {
     /// Whether entries are stored at the same places.
     pub(crate) fn same_pattern(&self, other: &Self) -> bool {
         self.indptr == other.indptr && self.indices == other.indices
+    }
+
+    /// Replaces row and column `j` of a symmetric matrix by `values` (n) at the places `rows`. False, and perhaps half
+    /// done, if entries are stored at other places.
+    pub(crate) fn replace_symmetrically(&mut self, j: usize, rows: &[usize], values: &[f64]) -> bool {
+        let column = self.indptr[j]..self.indptr[j + 1];
+        if self.indices[column.clone()] != *rows {
+            return false;
+        }
+        for (place, &i) in column.zip(rows) {
+            self.data[place] = values[i];
+            let mirror = self.indptr[i]..self.indptr[i + 1];
+            let Ok(p) = self.indices[mirror.clone()].binary_search(&j) else { return false };
+            self.data[mirror.start + p] = values[i];
+        }
+        true
     }
 
     /// Entry `[i, j]`, zero where none is stored.

@@ -45,6 +45,11 @@ impl Problem {
         Ok(Self { gram: true, ..Self::new(m, q)? })
     }
 
+    /// Whether `M` is known to be such a product.
+    pub(crate) fn is_gram(&self) -> bool {
+        self.gram
+    }
+
     /// Takes a dense matrix, n x n in row-major order.
     ///
     /// # Errors

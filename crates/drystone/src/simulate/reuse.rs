@@ -52,6 +52,11 @@ pub(super) trait Route: std::fmt::Debug + Send + Sync {
         false
     }
 
+    /// The problem of the step before, if the matrix of this one is to be made from it.
+    fn last(&self) -> Option<&Problem> {
+        None
+    }
+
     /// Takes the matrix of a step. Returns how many rows of the active block came with their factor.
     fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError>;
 
@@ -297,6 +302,10 @@ impl Route for FromLast {
             before.len() == situation.problem.len() && pairs.into_iter().all(|(old, new)| old.same_geometry(new))
         };
         self.held.solver.is_some() && situation.before.is_some_and(same)
+    }
+
+    fn last(&self) -> Option<&Problem> {
+        self.held.solver.as_ref().map(Solver::problem)
     }
 
     fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {

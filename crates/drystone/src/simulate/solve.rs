@@ -105,7 +105,11 @@ impl World {
             return Ok(self.route.solver().active_rows());
         }
         let q = problem.q(given.free, given.offsets, assumed);
-        let matrix = problem.problem(&self.inverse_mass, q).map_err(trouble)?;
+        let matrix = match self.before.as_ref().zip(self.route.last()) {
+            Some(before) => problem.problem_after(before, &self.inverse_mass, q),
+            None => problem.problem(&self.inverse_mass, q),
+        };
+        let matrix = matrix.map_err(trouble)?;
         let begun = Instant::now();
         let rows_reused = self.route.begin(&situation, matrix).map_err(trouble);
         *time += begun.elapsed();

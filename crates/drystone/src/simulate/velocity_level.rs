@@ -64,6 +64,27 @@ impl VelocityLevel {
 
     /// `A = G' M^-1 G` and q. `inverse_mass`: the diagonal of M^-1, three entries a body, zero for a fixed one.
     pub fn problem(&self, inverse_mass: &[[f64; 3]], q: Vec<f64>) -> Result<Problem, LcpError> {
+        Problem::from_generators_and_q(&self.generators(inverse_mass)?, inverse_mass.as_flattened(), q)
+    }
+
+    /// The same from the problem before it, of which only the rows that moved are made anew where the others are as they were.
+    pub fn problem_after(
+        &self,
+        (before, last): (&Self, &Problem),
+        inverse_mass: &[[f64; 3]],
+        q: Vec<f64>,
+    ) -> Result<Problem, LcpError> {
+        let origins = self.origins(before);
+        let same_rows =
+            before.len() == origins.len() && origins.iter().enumerate().all(|(row, origin)| origin.old() == Some(row));
+        if !same_rows {
+            return self.problem(inverse_mass, q);
+        }
+        let moved: Vec<bool> = origins.iter().map(|origin| matches!(origin, Origin::Moved(_))).collect();
+        last.with_moved_generators(&self.generators(inverse_mass)?, &moved, inverse_mass.as_flattened(), q)
+    }
+
+    fn generators(&self, inverse_mass: &[[f64; 3]]) -> Result<Columns, LcpError> {
         let mut indptr = Vec::with_capacity(self.len() + 1);
         let (mut indices, mut data) = (Vec::with_capacity(6 * self.len()), Vec::with_capacity(6 * self.len()));
         indptr.push(0);
@@ -79,8 +100,7 @@ impl VelocityLevel {
                 indptr.push(indices.len());
             }
         }
-        let g = Columns::new(3 * inverse_mass.len(), &indptr, &indices, &data)?;
-        Problem::from_generators_and_q(&g, inverse_mass.as_flattened(), q)
+        Columns::new(3 * inverse_mass.len(), &indptr, &indices, &data)
     }
 
     /// `q` for velocities without impulses `free`, offsets `c` and sliding speeds `s`, one an approach.

@@ -51,7 +51,16 @@ impl Columns {
                 next[indices[p]] += 1;
             }
         }
-        let entries = indices.iter().zip(data).map(|(&row, &value)| (row as u32, value)).collect();
+        // Row by row, so that every column has its rows in order, whatever order they came in: sums over them are then
+        // the same for all columns.
+        let mut next = indptr.to_vec();
+        let mut entries = vec![(0, 0.0); indices.len()];
+        for row in 0..rows {
+            for &(column, value) in &row_columns[row_starts[row]..row_starts[row + 1]] {
+                entries[next[column as usize]] = (row as u32, value);
+                next[column as usize] += 1;
+            }
+        }
         Ok(Self { rows, starts: indptr.to_vec(), entries, row_starts, row_columns })
     }
 
@@ -70,7 +79,7 @@ impl Columns {
         self.len() == 0
     }
 
-    /// Entries (row, value) of column j.
+    /// Entries (row, value) of column j, rows ascending.
     pub fn column(&self, j: u32) -> &[(u32, f64)] {
         &self.entries[self.starts[j as usize]..self.starts[j as usize + 1]]
     }

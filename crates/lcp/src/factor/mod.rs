@@ -95,7 +95,7 @@ const LOST: f64 = 1e-14;
 /// The factor whose storage is smaller for this matrix: dense while the static fill is more than half of a full
 /// triangle (or the matrix is tiny), sparse otherwise.
 pub fn choose(m: &SparseColumns) -> Box<dyn ActiveFactor> {
-    const TINY: usize = 24;
+    const TINY: usize = 48;
     if m.len() <= TINY {
         return Box::new(DenseFactor::new(m.len()));
     }

@@ -27,7 +27,8 @@ pub enum Origin {
 }
 
 impl Origin {
-    fn old(self) -> Option<usize> {
+    /// The row that it was, if it was there.
+    pub fn old(self) -> Option<usize> {
         match self {
             Self::New => None,
             Self::Moved(old) | Self::Same(old) => Some(old),
