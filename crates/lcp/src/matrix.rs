@@ -193,6 +193,20 @@ impl SparseColumns {
         scaled
     }
 
+    /// Makes this matrix, of the same pattern, the scaled form of another one where entries in rows and columns in `moved` are
+    /// other than they were.
+    pub(crate) fn scale_again(&mut self, other: &Self, d: &[f64], moved: impl Fn(usize) -> bool) {
+        for j in 0..self.n {
+            let whole = moved(j);
+            for p in self.indptr[j]..self.indptr[j + 1] {
+                let i = self.indices[p];
+                if whole || moved(i) {
+                    self.data[p] = other.data[p] * (d[i] * d[j]);
+                }
+            }
+        }
+    }
+
     /// The principal sub-matrix on `indices`, in that order.
     pub fn principal(&self, indices: &[usize]) -> Self {
         let mut place = vec![usize::MAX; self.n];

@@ -13,12 +13,20 @@ pub(crate) struct Scaling {
 
 impl Scaling {
     pub fn new(problem: &Problem) -> Self {
-        let d: Vec<f64> = (0..problem.len())
-            .map(|i| {
-                let diagonal = problem.m().get(i, i);
-                if diagonal > 0.0 { diagonal.sqrt().recip() } else { 1.0 }
-            })
-            .collect();
+        Self::of(problem, |_| None)
+    }
+
+    /// The same for a problem of which only rows in `moved` have another diagonal than the one that this is for.
+    pub fn after(&self, problem: &Problem, moved: impl Fn(usize) -> bool) -> Self {
+        Self::of(problem, |i| (!moved(i)).then_some(self.d[i]))
+    }
+
+    fn of(problem: &Problem, known: impl Fn(usize) -> Option<f64>) -> Self {
+        let scale = |i: usize| {
+            let diagonal = problem.m().get(i, i);
+            if diagonal > 0.0 { diagonal.sqrt().recip() } else { 1.0 }
+        };
+        let d: Vec<f64> = (0..problem.len()).map(|i| known(i).unwrap_or_else(|| scale(i))).collect();
         let q_size = d.iter().zip(problem.q()).fold(0.0_f64, |size, (d, q)| size.max((d * q).abs()));
         Self { d, q_size }
     }

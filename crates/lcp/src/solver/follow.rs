@@ -50,12 +50,12 @@ impl Solver {
     pub fn follow(&mut self, problem: Problem, origins: &[Origin]) -> Result<usize, LcpError> {
         problem.require_symmetric()?;
         let place = self.places(problem.len(), origins)?;
+        let in_place = place.len() == origins.len() && place.iter().enumerate().all(|(i, &new)| new == Some(i));
+        if in_place && problem.m().same_pattern(&self.m) {
+            return self.follow_in_place(problem, origins);
+        }
         let scaling = Scaling::new(&problem);
         let m = problem.m().scaled_symmetrically(&scaling.d);
-        let in_place = place.len() == origins.len() && place.iter().enumerate().all(|(i, &new)| new == Some(i));
-        if in_place && m.same_pattern(&self.m) {
-            return self.follow_in_place(problem, scaling, m, origins);
-        }
         self.require_same(&m, origins)?;
 
         let stays = |&old: &usize| place[old].is_some_and(|new| origins[new] == Origin::Same(old));
@@ -80,16 +80,10 @@ impl Solver {
     }
 
     /// The same for a problem with the same rows, of which some have other entries at the same places.
-    fn follow_in_place(
-        &mut self,
-        problem: Problem,
-        scaling: Scaling,
-        m: SparseColumns,
-        origins: &[Origin],
-    ) -> Result<usize, LcpError> {
+    fn follow_in_place(&mut self, problem: Problem, origins: &[Origin]) -> Result<usize, LcpError> {
         let moved = |i: usize| matches!(origins[i], Origin::Moved(_));
-        for column in (0..m.len()).filter(|&column| !moved(column)) {
-            let ((rows, values), (_, old)) = (m.column(column), self.m.column(column));
+        for column in (0..problem.len()).filter(|&column| !moved(column)) {
+            let ((rows, values), (_, old)) = (problem.m().column(column), self.problem.m().column(column));
             for ((&row, &value), &before) in rows.iter().zip(values).zip(old) {
                 if value != before && !moved(row) {
                     return Err(LcpError::RowChanged { row, column, value, before });
@@ -100,13 +94,15 @@ impl Solver {
         let stayed = self.active.members().len() - leaving.len();
         self.take_out(&leaving);
         leaving.iter().for_each(|&i| self.active.remove(i));
+        let scaling = self.scaling.after(&problem, moved);
+        Arc::make_mut(&mut self.m).scale_again(problem.m(), &scaling.d, moved);
         for i in (0..origins.len()).filter(|&i| self.role[i] != Role::Absent) {
             self.settled &= !moved(i) && self.load.q[i] == problem.q()[i];
             self.z[i] *= self.scaling.d[i] / scaling.d[i];
         }
         let scaled = scaling.d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
         self.load = Arc::new(Load { q: problem.q().to_vec(), scaled });
-        (self.problem, self.scaling, self.m, self.driven) = (problem, scaling, Arc::new(m), None);
+        (self.problem, self.scaling, self.driven) = (problem, scaling, None);
         leaving.into_iter().for_each(|i| self.come_back(i));
         self.measure_q();
         // Where something has changed the next solve computes w; else it is what it was.
