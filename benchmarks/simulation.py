@@ -37,7 +37,7 @@ SECONDS = 5
 LOOKS = 20
 """Times a second that places are looked at, between the steps timed."""
 
-ROUNDS = 7
+ROUNDS = 25
 """Most repetitions."""
 
 REPEAT_WITHIN = 10.0
