@@ -1,0 +1,7 @@
+"""A mesh that cannot be a rigid body."""
+
+from drystone._core import SceneError
+
+
+class MeshError(SceneError):
+    """A mesh cannot be used; the text names it, says why, and what to do."""

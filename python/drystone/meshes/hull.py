@@ -1,0 +1,65 @@
+"""Convex hulls of points, and convex pieces put together again."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import ConvexHull, QhullError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+CONVEX = 1e-9
+"""Two pieces are one if their hull has no more volume than they, within this share of it."""
+
+
+def hull_volume(points: NDArray[np.float64]) -> float:
+    """Volume of the convex hull of points (k, 3), cubic metres; 0 if it is flat."""
+    try:
+        return float(ConvexHull(points).volume)
+    except (QhullError, ValueError):
+        return 0.0
+
+
+def hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Those of the points (k, 3) that are corners of their hull."""
+    corners: NDArray[np.float64] = points[np.sort(ConvexHull(points).vertices)]
+    return corners
+
+
+def merged(pieces: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:
+    """The same solid in fewer pieces: two with a convex union become one."""
+    pieces = list(pieces)
+    volumes = [hull_volume(piece) for piece in pieces]
+    before = len(pieces) + 1
+    while len(pieces) < before:
+        before = len(pieces)
+        i = 0
+        while i < len(pieces):
+            j = _partner(pieces, volumes, i)
+            if j is None:
+                i += 1
+                continue
+            both = np.concatenate([pieces[i], pieces[j]])
+            pieces[i] = hull_corners(both)
+            volumes[i] += volumes[j]
+            del pieces[j], volumes[j]
+    return pieces
+
+
+def _partner(pieces: list[NDArray[np.float64]], volumes: list[float], i: int) -> int | None:
+    """The first piece after `i` with which it makes a convex one."""
+    later = pieces[i + 1 :]
+    if not later:
+        return None
+    low = np.array([piece.min(axis=0) for piece in later])
+    high = np.array([piece.max(axis=0) for piece in later])
+    reach = 1e-6 * np.ptp(pieces[i], axis=0).max()
+    own_low, own_high = pieces[i].min(axis=0) - reach, pieces[i].max(axis=0) + reach
+    near = ((low <= own_high) & (high >= own_low)).all(axis=1)
+    for j in np.flatnonzero(near) + i + 1:
+        both = volumes[i] + volumes[j]
+        if hull_volume(np.concatenate([pieces[i], pieces[j]])) <= (1 + CONVEX) * both:
+            return int(j)
+    return None

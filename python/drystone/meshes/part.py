@@ -1,0 +1,160 @@
+"""From a mesh to the convex pieces of one rigid body."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from drystone.meshes.convex import Decomposition
+from drystone.meshes.errors import MeshError
+from drystone.meshes.hull import hull_corners, hull_volume
+from drystone.meshes.planes import at_least_planes
+from drystone.meshes.reading import read_triangles
+from drystone.meshes.surface import Surface, repaired
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+FLAT = 1e-6
+"""What is within this share of a mesh's diagonal of a plane is in it: ten times what single
+precision, in which STL and glTF keep numbers, can resolve. The pieces' surface is this close to
+the mesh's, and so their volume within this times its area, which is checked."""
+
+CONVEX = 1e-7
+"""A mesh is convex if its hull has no more volume within this share of it: so exact is its mass."""
+
+MOST_PIECES = 256
+"""Convex pieces of a body, unless said otherwise: contacts are found between pieces."""
+
+MOST_PLANES = 2048
+"""Planes of a concave mesh's faces. Cutting takes a time that grows with their square."""
+
+MOST_CORNERS = 2048
+"""Corners of a convex piece: contacts are found between its faces."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Part:
+    """One rigid body, made of convex pieces that touch and do not overlap."""
+
+    name: str
+    pieces: list[NDArray[np.float64]]
+    """The corners (k, 3) of each, metres, in the mesh's own frame."""
+    volume: float
+    """Cubic metres."""
+    messages: list[str] = field(default_factory=list)
+    """What was repaired or taken otherwise than given."""
+
+    def placed(self, position: Any, rotation: NDArray[np.float64]) -> list[NDArray[np.float64]]:
+        """The corners of each piece in the world: turned by a matrix (3, 3), then moved."""
+        return [piece @ rotation.T + np.asarray(position, dtype=float) for piece in self.pieces]
+
+
+def read_part(
+    source: str | PathLike[str] | Any,
+    *,
+    scale: float | tuple[float, float, float] = 1.0,
+    name: str | None = None,
+    hull: bool = False,
+    max_pieces: int = MOST_PIECES,
+) -> Part:
+    """The convex pieces of a mesh file (OBJ, STL, PLY, OFF, glTF, GLB) or of a trimesh.Trimesh.
+
+    `scale` makes metres of the file's units. `hull` takes the convex hull instead, as simulators do
+    with meshes. Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls
+    into more than `max_pieces` convex pieces, and OSError if the file cannot be opened.
+    """
+    label = fspath(source) if isinstance(source, (str, PathLike)) else name or "the mesh"
+    try:
+        read = read_triangles(source)
+        vertices = read.vertices * _factors(scale)
+        if hull:
+            return _hull(name or read.name, vertices[np.unique(read.triangles)])
+        triangles = read.triangles
+        if np.prod(_factors(scale)) < 0:
+            triangles = triangles[:, ::-1]
+        return part_of(name or read.name, vertices, triangles, read.repeats, max_pieces)
+    except MeshError as error:
+        raise MeshError(f"{label}: {error}") from None
+
+
+def part_of(
+    name: str,
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int64],
+    quietly: bool = False,
+    max_pieces: int = MOST_PIECES,
+) -> Part:
+    """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3)."""
+    _refuse_too_fine(vertices, triangles)
+    surface = repaired(vertices, triangles.copy(), quietly)
+    tolerance = FLAT * surface.diagonal
+    volume, area = surface.volume, surface.area
+    if volume <= tolerance * area:
+        raise MeshError("it has no volume: a rigid body needs a thickness")
+    hull = hull_volume(surface.vertices)
+    if hull <= (1 + CONVEX) * volume:
+        pieces = [hull_corners(surface.vertices)]
+    else:
+        pieces = _concave(surface, tolerance, max_pieces)
+    missing = sum(hull_volume(piece) for piece in pieces) - volume
+    if abs(missing) > max(tolerance * area, CONVEX * volume):
+        raise MeshError(
+            f"its convex pieces have {missing:+.3g} of its volume of {volume:.3g} cubic metres too "
+            "much: its surface goes through itself; join its parts to one solid and export it again"
+        )
+    for piece in pieces:
+        _check_corners(piece)
+    return Part(name, pieces, volume, surface.messages)
+
+
+def _concave(surface: Surface, tolerance: float, max_pieces: int) -> list[NDArray[np.float64]]:
+    # In the middle of the mesh, where numbers are exact to the last bits.
+    middle = surface.vertices.mean(axis=0)
+    cutting = Decomposition(surface.corners - middle, tolerance, MOST_PLANES, max_pieces)
+    return [hull_corners(piece) + middle for piece in cutting.pieces()]
+
+
+def _refuse_too_fine(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> None:
+    """Fail at once on a mesh of a million triangles that will not do in the end.
+
+    A convex solid of 2 c faces has more than c corners (Euler), and for a concave one there are too
+    many planes to cut along.
+    """
+    if len(triangles) <= 2 * MOST_CORNERS or not np.isfinite(vertices).all():
+        return
+    tolerance = FLAT * float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    most = 2 * MOST_CORNERS
+    if at_least_planes(vertices[triangles], tolerance, most) > most:
+        raise MeshError(
+            f"its {len(triangles)} triangles lie in more than {most} planes: simplify the mesh, or "
+            "take its convex hull"
+        )
+
+
+def _hull(name: str, points: NDArray[np.float64]) -> Part:
+    if not np.isfinite(points).all():
+        raise MeshError("some of its vertices are not finite numbers: export it again")
+    volume = hull_volume(points)
+    if volume <= 0:
+        raise MeshError("its convex hull is flat: a rigid body needs a thickness")
+    piece = hull_corners(points)
+    _check_corners(piece)
+    return Part(name, [piece], volume)
+
+
+def _check_corners(piece: NDArray[np.float64]) -> None:
+    if len(piece) > MOST_CORNERS:
+        raise MeshError(
+            f"a convex piece of it has {len(piece)} corners, more than {MOST_CORNERS}: simplify it"
+        )
+
+
+def _factors(scale: float | tuple[float, float, float]) -> NDArray[np.float64]:
+    factors = np.broadcast_to(np.asarray(scale, dtype=float), 3)
+    if not np.isfinite(factors).all() or (factors == 0).any():
+        raise MeshError(f"its scale must be finite numbers other than 0, not {scale!r}")
+    return factors
