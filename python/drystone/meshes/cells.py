@@ -1,18 +1,19 @@
 """Convex cells of space, cut by planes.
 
-A cell is its corners, and for each corner the planes that it lies on. Two corners are joined by an
-edge where they share two planes; a cut finds its new corners along these edges, so that no faces
-need to be kept. A corner within the tolerance of the cutting plane is on it and belongs to both
-sides: no cut makes a sliver thinner than that.
+A cell is its corners and its walls. Two corners are joined by an edge where they have two walls in
+common; a cut finds its new corners along these edges, so that no faces need to be kept. A corner
+within the tolerance of a plane is on it. One on the cutting plane belongs to both sides: no cut
+makes a sliver thinner than that.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 import numpy as np
+
+from drystone.meshes.hull import hull_corners
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,19 +39,18 @@ class Plane:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Cell:
-    """A convex cell: its corners (k, 3), and for each the numbers of the planes through it."""
+    """A convex cell: its corners (k, 3) and the planes of its walls."""
 
     corners: NDArray[np.float64]
-    planes: tuple[frozenset[int], ...]
+    walls: tuple[Plane, ...]
 
     @classmethod
     def box(cls, low: NDArray[np.float64], high: NDArray[np.float64]) -> Cell:
-        """The box between two corners. Its planes have the numbers -6 to -1."""
-        corners, planes = [], []
-        for choice in np.ndindex(2, 2, 2):
-            corners.append(np.where(choice, high, low))
-            planes.append(frozenset(-1 - axis - 3 * upper for axis, upper in enumerate(choice)))
-        return cls(np.array(corners), tuple(planes))
+        """The box between two corners. Its walls have the numbers -6 to -1."""
+        corners = np.array([np.where(choice, high, low) for choice in np.ndindex(2, 2, 2)])
+        walls = [Plane(axis - 6, np.eye(3)[axis], float(low[axis])) for axis in range(3)]
+        walls += [Plane(axis - 3, np.eye(3)[axis], float(high[axis])) for axis in range(3)]
+        return cls(corners, tuple(walls))
 
     def side(self, plane: Plane, tolerance: float) -> int:
         """On which side of `plane` the cell is."""
@@ -59,27 +59,40 @@ class Cell:
     def cut(self, plane: Plane, tolerance: float) -> tuple[Cell, Cell]:
         """The parts inside and outside of a plane that goes across."""
         heights = plane.heights(self.corners)
-        where = np.where(abs(heights) <= tolerance, 0, np.sign(heights)).astype(int)
-        shared = [
-            (corner, on | {plane.number})
-            for corner, on, place in zip(self.corners, self.planes, where, strict=True)
-            if place == 0
-        ]
-        for i, j in combinations(range(len(where)), 2):
-            common = self.planes[i] & self.planes[j]
-            if where[i] * where[j] < 0 and len(common) >= 2:
-                share = heights[i] / (heights[i] - heights[j])
-                point = (1 - share) * self.corners[i] + share * self.corners[j]
-                shared.append((point, common | {plane.number}))
-        return self._part(where < 0, shared), self._part(where > 0, shared)
+        low, high = self._edges(heights < -tolerance, heights > tolerance, tolerance)
+        share = (heights[low] / (heights[low] - heights[high]))[:, None]
+        crossings = (1 - share) * self.corners[low] + share * self.corners[high]
+        on = self.corners[abs(heights) <= tolerance]
+        below, above = self.corners[heights < -tolerance], self.corners[heights > tolerance]
+        return (
+            self._part(np.concatenate([below, on, crossings]), plane, tolerance),
+            self._part(np.concatenate([above, on, crossings]), plane, tolerance),
+        )
 
-    def _part(
-        self, kept: NDArray[np.bool_], shared: list[tuple[NDArray[np.float64], frozenset[int]]]
-    ) -> Cell:
-        indices = np.flatnonzero(kept)
-        corners = [self.corners[i] for i in indices] + [corner for corner, _ in shared]
-        planes = [self.planes[i] for i in indices] + [on for _, on in shared]
-        return Cell(np.array(corners), tuple(planes))
+    def _edges(
+        self, low: NDArray[np.bool_], high: NDArray[np.bool_], tolerance: float
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The ends of the edges from some corners to others, and perhaps diagonals of a wall.
+
+        Ends have two walls in common. What is no edge does no harm: it stays inside.
+        """
+        heights = np.stack([abs(wall.heights(self.corners)) for wall in self.walls], axis=1)
+        on = (heights <= tolerance).astype(np.int64)
+        common = on[low] @ on[high].T
+        i, j = np.nonzero(common >= 2)
+        return np.flatnonzero(low)[i], np.flatnonzero(high)[j]
+
+    def _part(self, corners: NDArray[np.float64], plane: Plane, tolerance: float) -> Cell:
+        """The cell of these corners, with those of the walls that are still its own."""
+        walls = [
+            wall
+            for wall in (*self.walls, plane)
+            if (abs(wall.heights(corners)) <= tolerance).sum() >= 3
+        ]
+        # No convex polyhedron has more corners than this; then some are inside of a wall.
+        if len(corners) > 2 * len(walls) - 4:
+            corners = hull_corners(corners)
+        return Cell(corners, tuple(walls))
 
 
 def side(heights: NDArray[np.float64], tolerance: float) -> int:

@@ -62,8 +62,8 @@ class Decomposition:
             plane = self._cutting_plane(region.faces)
             if plane is not None:
                 regions += self._cut(region, plane)
-            elif len(region.faces) or self._is_solid(region.cell):
-                found.append(self._convex_part(region).corners)
+            else:
+                found += self._convex_part(region)
             if len(found) > SLACK * self._most_pieces:
                 raise too_many_pieces(self._most_pieces)
         pieces = merged([piece for piece in found if hull_volume(piece) > 0])
@@ -97,7 +97,7 @@ class Decomposition:
         return self._planes[best]
 
     def _cut(self, region: _Region, plane: Plane) -> list[_Region]:
-        if region.cell.side(plane, self._tolerance) != ACROSS:
+        if self._side(region.cell, plane.number) != ACROSS:
             # Its faces are in the wall of the cell: not inside.
             kept = [face for face in region.faces if face.plane != plane.number]
             return [_Region(region.cell, Faces.of(kept))]
@@ -116,15 +116,25 @@ class Decomposition:
         below, above = region.cell.cut(plane, self._tolerance)
         return [_Region(below, Faces.of(inside)), _Region(above, Faces.of(outside))]
 
-    def _convex_part(self, region: _Region) -> Cell:
-        """The cell cut off by the planes of the faces in it."""
+    def _convex_part(self, region: _Region) -> list[NDArray[np.float64]]:
+        """The cell cut off by the planes of the faces in it; nothing if that is empty."""
+        # The faces of a plane that does not go across are in the cell's wall: not inside.
+        walls = {(face.plane, face.outwards) for face in region.faces}
+        walls = {wall for wall in walls if self._side(region.cell, wall[0]) == ACROSS}
+        if not walls:
+            return [region.cell.corners] if self._is_solid(region.cell) else []
         cell = region.cell
-        for number, outwards in {(face.plane, face.outwards) for face in region.faces}:
-            plane = self._planes[number]
-            if cell.side(plane, self._tolerance) == ACROSS:
-                below, above = cell.cut(plane, self._tolerance)
+        for number, outwards in sorted(walls):
+            where = self._side(cell, number)
+            if where == ACROSS:
+                below, above = cell.cut(self._planes[number], self._tolerance)
                 cell = below if outwards else above
-        return cell
+            elif where != (INSIDE if outwards else OUTSIDE):
+                return []
+        return [cell.corners]
+
+    def _side(self, cell: Cell, plane: int) -> int:
+        return cell.side(self._planes[plane], self._tolerance)
 
     def _is_solid(self, cell: Cell) -> bool:
         """Whether a cell without surface is inside the solid."""

@@ -23,8 +23,11 @@ def hull_volume(points: NDArray[np.float64]) -> float:
 
 
 def hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Those of the points (k, 3) that are corners of their hull."""
-    corners: NDArray[np.float64] = points[np.sort(ConvexHull(points).vertices)]
+    """Those of the points (k, 3) that are corners of their hull; all of them if it is flat."""
+    try:
+        corners: NDArray[np.float64] = points[np.sort(ConvexHull(points).vertices)]
+    except (QhullError, ValueError):
+        return points
     return corners
 
 

@@ -103,8 +103,8 @@ def part_of(
     missing = sum(hull_volume(piece) for piece in pieces) - volume
     if abs(missing) > max(tolerance * area, CONVEX * volume):
         raise MeshError(
-            f"its convex pieces have {missing:+.3g} of its volume of {volume:.3g} cubic metres too "
-            "much: its surface goes through itself; join its parts to one solid and export it again"
+            f"it encloses {volume:.4g} cubic metres but its convex pieces {volume + missing:.4g}: "
+            "its surface goes through itself; join its parts to one solid and export it again"
         )
     for piece in pieces:
         _check_corners(piece)
