@@ -18,9 +18,9 @@ from drystone.meshes.surface import Surface, repaired
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-FLAT = 1e-6
-"""What is within this share of a mesh's diagonal of a plane is in it: ten times what single
-precision, in which STL and glTF keep numbers, can resolve. The pieces' surface is this close to
+FLAT = 3e-7
+"""What is within this share of a mesh's diagonal of a plane is in it: five times the rounding of
+single precision, in which STL and glTF keep numbers. The pieces' surface is this close to
 the mesh's, and so their volume within this times its area, which is checked."""
 
 CONVEX = 1e-7
@@ -29,11 +29,15 @@ CONVEX = 1e-7
 MOST_PIECES = 256
 """Convex pieces of a body, unless said otherwise: contacts are found between pieces."""
 
-MOST_PLANES = 2048
+MOST_PLANES = 2000
 """Planes of a concave mesh's faces. Cutting takes a time that grows with their square."""
 
-MOST_CORNERS = 2048
-"""Corners of a convex piece: contacts are found between its faces."""
+FEW_PLANES = 100
+"""A convex mesh of no more planes than these is cut out of them, so that its faces are plane to the
+last bits even if the file's are not; what has more is smooth, and its triangles are its faces."""
+
+MOST_CORNERS = 2000
+"""Corners of a convex piece, no more than a scene takes: contacts are found between its faces."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,10 +100,11 @@ def part_of(
     if volume <= tolerance * area:
         raise MeshError("it has no volume: a rigid body needs a thickness")
     hull = hull_volume(surface.vertices)
-    if hull <= (1 + CONVEX) * volume:
+    convex = hull <= (1 + CONVEX) * volume
+    if convex and at_least_planes(surface.corners, tolerance, FEW_PLANES) > FEW_PLANES:
         pieces = [hull_corners(surface.vertices)]
     else:
-        pieces = _concave(surface, tolerance, max_pieces)
+        pieces = _cut_out(surface, tolerance, max_pieces)
     missing = sum(hull_volume(piece) for piece in pieces) - volume
     if abs(missing) > max(tolerance * area, CONVEX * volume):
         raise MeshError(
@@ -111,7 +116,7 @@ def part_of(
     return Part(name, pieces, volume, surface.messages)
 
 
-def _concave(surface: Surface, tolerance: float, max_pieces: int) -> list[NDArray[np.float64]]:
+def _cut_out(surface: Surface, tolerance: float, max_pieces: int) -> list[NDArray[np.float64]]:
     # In the middle of the mesh, where numbers are exact to the last bits.
     middle = surface.vertices.mean(axis=0)
     cutting = Decomposition(surface.corners - middle, tolerance, MOST_PLANES, max_pieces)
