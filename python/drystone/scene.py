@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
+from warnings import warn
 
 from drystone import _core
 
@@ -274,6 +275,45 @@ class Scene:
             density,
             friction,
             fixed,
+        )
+
+    def add_mesh(
+        self,
+        mesh: str | PathLike[str] | Any,
+        position: Point = ORIGIN,
+        orientation: Sequence[float] = UPRIGHT,
+        scale: float | tuple[float, float, float] = 1.0,
+        name: str | None = None,
+        density: float = 1.0,
+        friction: float | None = None,
+        fixed: bool = False,
+        *,
+        hull: bool = False,
+        max_pieces: int | None = None,
+    ) -> str:
+        """Add a mesh as one rigid body of exact convex pieces and return its name.
+
+        `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface in
+        a frame that stands at `position`, turned by `orientation`. `scale` makes metres of its
+        lengths. `hull` takes its convex hull instead. What is mended is said in a MeshWarning.
+
+        Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls into more
+        than `max_pieces` (256) convex pieces, and the errors of `add_solid`.
+        """
+        from drystone import meshes
+
+        most = meshes.MOST_PIECES if max_pieces is None else max_pieces
+        part = meshes.read_part(mesh, scale=scale, name=name, hull=hull, max_pieces=most)
+        for message in part.messages:
+            warn(f"{part.name}: {message}", meshes.MeshWarning, stacklevel=2)
+        return self.add_solid(
+            part.pieces,
+            name,
+            density,
+            friction,
+            fixed,
+            position=position,
+            orientation=orientation,
         )
 
     def extruded(self, depth: float = 1.0) -> Scene:

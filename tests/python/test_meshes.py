@@ -11,7 +11,8 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from drystone.meshes import MeshError, Part, read_part
+import drystone as ds
+from drystone.meshes import MeshError, MeshWarning, Part, read_part
 from drystone.meshes.convex import winding_number
 
 Points = NDArray[np.float64]
@@ -392,3 +393,49 @@ def test_a_million_triangles_of_a_box_are_a_box() -> None:
     part = read_part(mesh)
     assert part.volume == pytest.approx(1)
     assert [len(piece) for piece in part.pieces] == [8]
+
+
+# In a scene
+
+
+def test_a_scene_takes_a_mesh(tmp_path: Path) -> None:
+    l_shape().export(tmp_path / "ell.stl")
+    scene = ds.Scene(dimension=3, friction=0.6)
+    scene.add_box((0, 0, -0.5), (20, 20, 1), name="ground", fixed=True)
+    half = np.sqrt(0.5)
+    name = scene.add_mesh(
+        tmp_path / "ell.stl", (5, 0, 0), (half, 0, 0, half), 2, name="ell", density=10.0
+    )
+    body = scene.body(name)
+    # Twice as large, turned a quarter about z, then moved.
+    assert body.mass == pytest.approx(240)
+    assert body.centroid == pytest.approx((5 - 10 / 6, 10 / 6, 1))
+    assert len(body.pieces) == 2
+    assert ds.check(scene).stable
+
+
+def test_inertia_in_a_scene_is_the_meshs() -> None:
+    mesh = trimesh.boolean.difference([box((1, 2, 3)), box((2, 1, 0.5), at=(0.5, 0.8, 1))])
+    scene = ds.Scene(dimension=3)
+    body = scene.body(scene.add_mesh(mesh, density=2.0))
+    assert body.mass == pytest.approx(2 * mesh.volume)
+    assert body.centroid == pytest.approx(tuple(mesh.center_mass))
+    assert body.inertia == pytest.approx(2 * mesh.moment_inertia, abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_scene_takes_every_union(seed: int) -> None:
+    """Its own check that pieces do not overlap passes."""
+    rng = np.random.default_rng(seed)
+    boxes = [
+        box(tuple(rng.integers(1, 4, 3) * 1.0), tuple(rng.integers(-1, 2, 3) * 0.5)) for _ in "abcd"
+    ]
+    mesh = trimesh.boolean.union(boxes)
+    scene = ds.Scene(dimension=3)
+    assert scene.body(scene.add_mesh(mesh)).mass == pytest.approx(mesh.volume)
+
+
+def test_what_is_mended_is_a_warning() -> None:
+    scene = ds.Scene(dimension=3)
+    with pytest.warns(MeshWarning, match="ell: was inside out"):
+        scene.add_mesh(mirrored(), name="ell")

@@ -1,6 +1,6 @@
 """Meshes: from a file to the convex pieces of a rigid body, or to an error with the fix."""
 
-from drystone.meshes.errors import MeshError
+from drystone.meshes.errors import MeshError, MeshWarning
 from drystone.meshes.part import MOST_PIECES, Part, part_of, read_part
 
-__all__ = ["MOST_PIECES", "MeshError", "Part", "part_of", "read_part"]
+__all__ = ["MOST_PIECES", "MeshError", "MeshWarning", "Part", "part_of", "read_part"]

@@ -23,6 +23,10 @@ INSIDE, ACROSS, OUTSIDE, ON = -1, 0, 1, 2
 it points to, or in it."""
 
 
+STRAIGHT = 1e-5
+"""Walls that differ by a smaller angle than about this (radians) have no edge between them."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Plane:
     """The points x with normal . x = offset (metres)."""
@@ -69,6 +73,16 @@ class Cell:
             self._part(np.concatenate([above, on, crossings]), plane, tolerance),
         )
 
+    def clean_corners(self, tolerance: float) -> NDArray[np.float64]:
+        """The corners where three walls meet at an angle, those within `tolerance` taken as one."""
+        kept: list[NDArray[np.float64]] = []
+        for corner in self.corners:
+            near = any(np.linalg.norm(corner - other) <= tolerance for other in kept)
+            through = [w.normal for w in self.walls if abs(w.heights(corner)) <= tolerance]
+            if not near and _in_space(through):
+                kept.append(corner)
+        return np.array(kept).reshape(-1, 3)
+
     def _edges(
         self, low: NDArray[np.bool_], high: NDArray[np.bool_], tolerance: float
     ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -93,6 +107,13 @@ class Cell:
         if len(corners) > 2 * len(walls) - 4:
             corners = hull_corners(corners)
         return Cell(corners, tuple(walls))
+
+
+def _in_space(normals: list[NDArray[np.float64]]) -> bool:
+    """Whether planes of these normals meet in a point, and not along a line."""
+    if len(normals) < 3:
+        return False
+    return bool(np.linalg.svd(np.array(normals), compute_uv=False)[2] > STRAIGHT)
 
 
 def side(heights: NDArray[np.float64], tolerance: float) -> int:

@@ -15,11 +15,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from drystone.meshes.cells import ACROSS, INSIDE, ON, OUTSIDE, Cell, Plane, clipped, side
 from drystone.meshes.errors import MeshError
-from drystone.meshes.hull import hull_volume, merged
-from drystone.meshes.planes import Faces, faces_by_plane
+from drystone.meshes.hull import hull_corners, hull_volume, merged
+from drystone.meshes.planes import Faces, at_least_planes, faces_by_plane
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -70,6 +71,11 @@ class Decomposition:
         if len(pieces) > self._most_pieces:
             raise too_many_pieces(self._most_pieces)
         return pieces
+
+    def cell_of_all(self) -> Cell | None:
+        """What the planes of all faces leave: the solid, if it is convex."""
+        walls = {(face.plane, face.outwards) for face in self._faces}
+        return self._cut_off(self._everything().cell, walls)
 
     def _everything(self) -> _Region:
         points = self._corners.reshape(-1, 3)
@@ -123,15 +129,19 @@ class Decomposition:
         walls = {wall for wall in walls if self._side(region.cell, wall[0]) == ACROSS}
         if not walls:
             return [region.cell.corners] if self._is_solid(region.cell) else []
-        cell = region.cell
+        cell = self._cut_off(region.cell, walls)
+        return [] if cell is None else [cell.corners]
+
+    def _cut_off(self, cell: Cell, walls: set[tuple[int, bool]]) -> Cell | None:
+        """What is inside of planes, given by number and whether their normals leave the solid."""
         for number, outwards in sorted(walls):
             where = self._side(cell, number)
             if where == ACROSS:
                 below, above = cell.cut(self._planes[number], self._tolerance)
                 cell = below if outwards else above
             elif where != (INSIDE if outwards else OUTSIDE):
-                return []
-        return [cell.corners]
+                return None
+        return cell
 
     def _side(self, cell: Cell, plane: int) -> int:
         return cell.side(self._planes[plane], self._tolerance)
@@ -139,6 +149,25 @@ class Decomposition:
     def _is_solid(self, cell: Cell) -> bool:
         """Whether a cell without surface is inside the solid."""
         return winding_number(self._corners, cell.corners.mean(axis=0)) > 0.5
+
+
+def cleaned(points: NDArray[np.float64], tolerance: float, most: int) -> NDArray[np.float64]:
+    """The corners of a convex piece with plane faces and straight edges; none if it is thin.
+
+    It is cut out of the planes of its hull again, of which those within `tolerance` (metres) of a
+    larger triangle's are the same. A piece of more than `most` planes is smooth: it stays as it is.
+    """
+    hull = ConvexHull(points)
+    if hull.volume <= tolerance * hull.area:
+        return np.empty((0, 3))
+    corners = points[hull.simplices]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    inwards = (normals * hull.equations[:, :3]).sum(axis=1) < 0
+    corners[inwards] = corners[inwards][:, ::-1]
+    if at_least_planes(corners, tolerance, most) > most:
+        return hull_corners(points)
+    cell = Decomposition(corners, tolerance, most, 1).cell_of_all()
+    return np.empty((0, 3)) if cell is None else cell.clean_corners(2 * tolerance)
 
 
 def winding_number(corners: NDArray[np.float64], point: NDArray[np.float64]) -> float:

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from drystone.meshes.convex import Decomposition
+from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
 from drystone.meshes.hull import hull_corners, hull_volume
 from drystone.meshes.planes import at_least_planes
 from drystone.meshes.reading import read_triangles
-from drystone.meshes.surface import Surface, repaired
+from drystone.meshes.surface import repaired
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -33,8 +33,8 @@ MOST_PLANES = 2000
 """Planes of a concave mesh's faces. Cutting takes a time that grows with their square."""
 
 FEW_PLANES = 100
-"""A convex mesh of no more planes than these is cut out of them, so that its faces are plane to the
-last bits even if the file's are not; what has more is smooth, and its triangles are its faces."""
+"""A convex piece of no more planes than these is cut out of them, so that its faces are plane to
+the last bits even if the file's are not; what has more is smooth, its triangles are its faces."""
 
 MOST_CORNERS = 2000
 """Corners of a convex piece, no more than a scene takes: contacts are found between its faces."""
@@ -51,10 +51,6 @@ class Part:
     """Cubic metres."""
     messages: list[str] = field(default_factory=list)
     """What was repaired or taken otherwise than given."""
-
-    def placed(self, position: Any, rotation: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-        """The corners of each piece in the world: turned by a matrix (3, 3), then moved."""
-        return [piece @ rotation.T + np.asarray(position, dtype=float) for piece in self.pieces]
 
 
 def read_part(
@@ -101,10 +97,14 @@ def part_of(
         raise MeshError("it has no volume: a rigid body needs a thickness")
     hull = hull_volume(surface.vertices)
     convex = hull <= (1 + CONVEX) * volume
-    if convex and at_least_planes(surface.corners, tolerance, FEW_PLANES) > FEW_PLANES:
-        pieces = [hull_corners(surface.vertices)]
+    middle = surface.vertices.mean(axis=0)  # where numbers are exact to the last bits
+    if convex:
+        pieces = [surface.vertices - middle]
     else:
-        pieces = _cut_out(surface, tolerance, max_pieces)
+        corners = surface.corners - middle
+        pieces = Decomposition(corners, tolerance, MOST_PLANES, max_pieces).pieces()
+    pieces = [cleaned(piece, tolerance, FEW_PLANES) + middle for piece in pieces]
+    pieces = [piece for piece in pieces if len(piece)]
     missing = sum(hull_volume(piece) for piece in pieces) - volume
     if abs(missing) > max(tolerance * area, CONVEX * volume):
         raise MeshError(
@@ -114,13 +114,6 @@ def part_of(
     for piece in pieces:
         _check_corners(piece)
     return Part(name, pieces, volume, surface.messages)
-
-
-def _cut_out(surface: Surface, tolerance: float, max_pieces: int) -> list[NDArray[np.float64]]:
-    # In the middle of the mesh, where numbers are exact to the last bits.
-    middle = surface.vertices.mean(axis=0)
-    cutting = Decomposition(surface.corners - middle, tolerance, MOST_PLANES, max_pieces)
-    return [hull_corners(piece) + middle for piece in cutting.pieces()]
 
 
 def _refuse_too_fine(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> None:
