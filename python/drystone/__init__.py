@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drystone import lcp, scenes, viewer
+    from drystone import imports, lcp, meshes, scenes, viewer
     from drystone._core import (
         DrystoneError,
         LcpError,
@@ -54,7 +54,9 @@ __all__ = [
     "World",
     "__version__",
     "check",
+    "imports",
     "lcp",
+    "meshes",
     "plan",
     "plan_many",
     "scenes",
@@ -62,7 +64,7 @@ __all__ = [
     "viewer",
 ]
 
-_MODULES = ("lcp", "scenes", "viewer")
+_MODULES = ("imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
     "Body": "drystone.scene",
     "Contact": "drystone.scene",

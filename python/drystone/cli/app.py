@@ -86,6 +86,13 @@ class Engine(str, Enum):
     ray = "ray"
 
 
+class Up(str, Enum):
+    """Axes that may point up in a file."""
+
+    y = "y"
+    z = "z"
+
+
 @app.callback(invoke_without_command=True)
 def root(
     version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
@@ -220,6 +227,64 @@ def simulate(
         forces,
         as_json,
         output,
+    )
+
+
+@app.command("import")
+def import_(
+    file: Annotated[
+        Path,
+        typer.Argument(
+            metavar="FILE",
+            help="A COMPAS assembly (.json), a folder of meshes or its manifest.json, MJCF (.xml), "
+            "URDF, or one mesh (.obj, .stl, .ply, .off, .gltf, .glb).",
+        ),
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", help="The scene file to write.")
+    ] = None,
+    scale: Annotated[
+        float, typer.Option(help="Metres in the file's unit of length: 0.001 for millimetres.")
+    ] = 1.0,
+    up: Annotated[Up, typer.Option(help="The axis that points up in the file.")] = Up.z,
+    friction: Annotated[float, typer.Option(help="For bodies without their own.")] = 0.5,
+    density: Annotated[
+        float | None, typer.Option(help="kg/m³, instead of the file's; 1000 if it has none.")
+    ] = None,
+    gravity: Annotated[
+        str | None, typer.Option(help="x,y,z in m/s²; 0,0,-9.81 if the file has none.")
+    ] = None,
+    fixed: Annotated[
+        str | None, typer.Option(help="Bodies that never move, names separated by commas.")
+    ] = None,
+    ground: Annotated[
+        bool, typer.Option("--ground", help="Lay a fixed box under everything.")
+    ] = False,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(help="Metres that bodies may be apart or overlap and still touch."),
+    ] = None,
+    max_pieces: Annotated[
+        int, typer.Option(min=1, help="At most so many convex pieces a body.")
+    ] = 256,
+    as_json: AsJson = False,
+) -> int:
+    """Make a scene of another tool's assembly, and say what was taken and what was left out."""
+    from drystone.cli import import_ as command
+
+    return command.run(
+        file,
+        output,
+        as_json,
+        scale=scale,
+        up=up.value,
+        friction=friction,
+        density=density,
+        gravity=gravity,
+        fixed=fixed,
+        ground=ground,
+        tolerance=tolerance,
+        max_pieces=max_pieces,
     )
 
 

@@ -1,0 +1,166 @@
+"""What an importer gathers: bodies, what it left out, what it took otherwise than written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from drystone._core import SceneError
+from drystone.imports.pose import Pose
+from drystone.meshes.hull import hull_volume
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+DENSITY = 1000.0
+"""kg/m^3, where a file gives none."""
+
+GROUND_MARGIN = 0.5
+"""Ground reaches this share of the bodies' extent beyond them on every side, and as deep."""
+
+
+class FormatError(SceneError):
+    """A file cannot be imported; the text names it, says why, and what to do."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ImportedBody:
+    """One rigid body: convex pieces (k, 3) in the world, metres."""
+
+    name: str
+    pieces: list[NDArray[np.float64]]
+    density: float
+    """kg/m^3."""
+    friction: float | None
+    fixed: bool
+
+    @property
+    def volume(self) -> float:
+        """Cubic metres."""
+        return sum(hull_volume(piece) for piece in self.pieces)
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """Something in a file that has no place in a scene."""
+
+    what: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Plane:
+    name: str
+    pose: Pose
+    friction: float | None
+
+
+@dataclass(slots=True, eq=False)
+class Collected:
+    """The bodies of a file, in its own units and axes until `placed`."""
+
+    bodies: list[ImportedBody] = field(default_factory=list)
+    left_out: list[LeftOut] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
+    gravity: tuple[float, float, float] | None = None
+    extent: float = 0.0
+    """The diagonal of all bodies, without planes and ground."""
+    _planes: list[_Plane] = field(default_factory=list)
+
+    def add(
+        self,
+        name: str,
+        pieces: list[NDArray[np.float64]],
+        *,
+        density: float | None = None,
+        friction: float | None = None,
+        fixed: bool = False,
+    ) -> None:
+        """One rigid body; a name that is taken gets a number."""
+        density = DENSITY if density is None else density
+        self.bodies.append(ImportedBody(self._free(name), pieces, density, friction, fixed))
+
+    def add_plane(self, name: str, pose: Pose, friction: float | None = None) -> None:
+        """A half-space below the xy plane of `pose`: a fixed box as large as the bodies need."""
+        self._planes.append(_Plane(name, pose, friction))
+
+    def leave_out(self, what: str, why: str) -> None:
+        """Note something that was not taken."""
+        self.left_out.append(LeftOut(what, why))
+
+    def say(self, about: str, messages: Iterable[str]) -> None:
+        """Note what was done to a body."""
+        self.messages += [f"{about}: {message}" for message in messages]
+
+    def fix(self, names: Iterable[str]) -> None:
+        """Fix bodies by name; FormatError for a name that is not there."""
+        wanted = set(names)
+        unknown = wanted - {body.name for body in self.bodies}
+        if unknown:
+            known = ", ".join(body.name for body in self.bodies[:20])
+            raise FormatError(f"no body is called {min(unknown)!r}: there are {known}")
+        self.bodies = [
+            ImportedBody(b.name, b.pieces, b.density, b.friction, b.fixed or b.name in wanted)
+            for b in self.bodies
+        ]
+
+    def measure(self) -> None:
+        """Note the extent of the bodies so far."""
+        if self.bodies:
+            self.extent = float(np.linalg.norm(np.ptp(self._points(), axis=0)))
+
+    def lay_planes(self) -> None:
+        """Turn planes into boxes, now that all bodies are there."""
+        if not self.bodies:
+            return
+        points = self._points()
+        for plane in self._planes:
+            slab = _slab(plane.pose, points)
+            self.add(plane.name, [slab], friction=plane.friction, fixed=True)
+            self.messages.append(f"{plane.name}: a plane, taken as a fixed box under the others")
+
+    def lay_ground(self) -> None:
+        """A fixed box under the lowest points of all bodies."""
+        points = self._points()
+        pose = Pose(np.array([0.0, 0.0, points[:, 2].min()]), np.eye(3))
+        self.add("ground", [_slab(pose, points)], fixed=True)
+
+    def transform(self, scale: float, rotation: NDArray[np.float64]) -> None:
+        """Scale lengths and turn everything; densities are kg/m^3 before and after."""
+        self.extent *= scale
+        if self.gravity is not None:
+            x, y, z = (scale * rotation @ np.array(self.gravity)).tolist()
+            self.gravity = (x, y, z)
+        self.bodies = [
+            ImportedBody(
+                b.name, [scale * p @ rotation.T for p in b.pieces], b.density, b.friction, b.fixed
+            )
+            for b in self.bodies
+        ]
+
+    def _points(self) -> NDArray[np.float64]:
+        return np.concatenate([piece for body in self.bodies for piece in body.pieces])
+
+    def _free(self, name: str) -> str:
+        taken = {body.name for body in self.bodies}
+        if name not in taken:
+            return name
+        number = 2
+        while f"{name} {number}" in taken:
+            number += 1
+        self.messages.append(f"{name}: named twice, the second is called {name} {number}")
+        return f"{name} {number}"
+
+
+def _slab(pose: Pose, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Corners of a box below the xy plane of `pose`, under all of `points`."""
+    local = (points - pose.position) @ pose.rotation
+    low, high = local.min(axis=0), local.max(axis=0)
+    margin = GROUND_MARGIN * float((high - low).max())
+    low, high = low - margin, high + margin
+    low[2], high[2] = -margin, 0.0
+    corners = np.array([np.where(c, high, low) for c in np.ndindex(2, 2, 2)])
+    return pose.apply(corners)

@@ -1,0 +1,179 @@
+"""`load`: assemblies that other tools wrote, as scenes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from drystone.imports import compas, folder, mjcf, urdf
+from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
+from drystone.imports.fields import read_json
+from drystone.imports.markup import read_xml
+from drystone.imports.pose import UP
+from drystone.meshes import MOST_PIECES, MeshError, read_part
+from drystone.meshes.reading import ENDINGS
+
+if TYPE_CHECKING:
+    from drystone.scene import Scene
+
+
+TOUCHING = 1e-6
+"""Bodies touch within this share of the diagonal of all of them, unless said otherwise: ten times
+the rounding of single precision, in which many tools keep coordinates."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Imported:
+    """A scene out of another tool's file, and what became of everything in the file."""
+
+    format: str
+    """"COMPAS assembly", "folder of parts", "manifest", "mesh", "MJCF" or "URDF"."""
+    scene: Scene
+    bodies: list[ImportedBody]
+    left_out: list[LeftOut]
+    messages: list[str]
+    """What was repaired, or taken otherwise than written."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """What `drystone import --json` prints."""
+        return {
+            "format": self.format,
+            "bodies": [
+                {
+                    "name": body.name,
+                    "pieces": len(body.pieces),
+                    "volume": body.volume,
+                    "density": body.density,
+                    "friction": body.friction,
+                    "fixed": body.fixed,
+                }
+                for body in self.bodies
+            ],
+            "left_out": [{"what": out.what, "why": out.why} for out in self.left_out],
+            "messages": self.messages,
+        }
+
+
+def load(
+    path: str | PathLike[str],
+    *,
+    scale: float = 1.0,
+    up: str = "z",
+    friction: float = 0.5,
+    density: float | None = None,
+    gravity: Sequence[float] | None = None,
+    fixed: Iterable[str] = (),
+    ground: bool = False,
+    tolerance: float | None = None,
+    max_pieces: int = MOST_PIECES,
+) -> Imported:
+    """A COMPAS assembly, a folder of part meshes, a manifest, one mesh, MJCF or URDF as a scene.
+
+    `scale` makes metres of the file's lengths, `up` is the axis ("y" or "z") that points up in
+    it. `friction` is for bodies without their own, `density` (kg/m^3) for all bodies, instead of
+    what the file says (1000 if it says nothing); `gravity` (m/s^2, z up) likewise. Bodies named in
+    `fixed` never move; `ground` lays a fixed box under all. `tolerance` is the scene's
+    `contact_tolerance`, in metres: how far apart bodies of an inexact file may be and still touch,
+    by default 1e-6 of the diagonal of all.
+
+    Raises FormatError or MeshError, naming the file and the fix, SceneError for bodies that do not
+    make a scene (two of them overlap), and OSError for a file that cannot be read.
+    """
+    path = Path(fspath(path))
+    if up not in UP:
+        raise FormatError(f"up must be 'y' or 'z', not {up!r}")
+    if not 0 < scale < float("inf"):
+        raise FormatError(f"scale must be a positive number, not {scale!r}")
+    collected = Collected()
+    try:
+        kind = _read(path, collected, max_pieces)
+    except (FormatError, MeshError) as error:
+        if str(path) in str(error):
+            raise
+        raise type(error)(f"{path}: {error}") from None
+    collected.measure()
+    collected.lay_planes()
+    collected.transform(scale, UP[up])
+    if not collected.bodies:
+        raise FormatError(f"{path}: nothing in it can be taken{_reasons(collected)}")
+    if ground:
+        collected.lay_ground()
+    collected.fix(fixed)
+    scene = _scene(collected, friction, density, gravity, tolerance)
+    return Imported(kind, scene, collected.bodies, collected.left_out, collected.messages)
+
+
+def _read(path: Path, collected: Collected, max_pieces: int) -> str:
+    """Fill `collected` and return the name of the format."""
+    if path.is_dir():
+        folder.read(path, collected, max_pieces)
+        return "folder of parts"
+    ending = path.suffix.lower()
+    if ending in ENDINGS:
+        part = read_part(path, max_pieces=max_pieces)
+        collected.say(part.name, part.messages)
+        collected.add(part.name, part.pieces)
+        return "mesh"
+    if ending == ".json":
+        return _read_json(path, collected, max_pieces)
+    if ending in (".xml", ".mjcf", ".urdf"):
+        return _read_xml(path, collected, max_pieces)
+    known = ", ".join((".json", ".xml", ".urdf", *ENDINGS))
+    raise FormatError(f"{path}: not known by its name: a folder, or one of {known}")
+
+
+def _read_json(path: Path, collected: Collected, max_pieces: int) -> str:
+    data = read_json(path)
+    if compas.is_assembly(data):
+        compas.read(data, collected, max_pieces)
+        return "COMPAS assembly"
+    if isinstance(data, dict) and "parts" in data:
+        folder.read_manifest(path, collected, max_pieces)
+        return "manifest"
+    if isinstance(data, dict) and "bodies" in data:
+        raise FormatError(f"{path}: a scene of drystone already: use it as it is")
+    raise FormatError(f"{path}: neither a COMPAS assembly nor a manifest of parts")
+
+
+def _read_xml(path: Path, collected: Collected, max_pieces: int) -> str:
+    root = read_xml(path)
+    if root.tag == "mujoco":
+        mjcf.read(root, path, collected)
+        return "MJCF"
+    if root.tag == "robot":
+        urdf.read(root, path, collected, max_pieces)
+        return "URDF"
+    raise FormatError(f"{path}: <{root.tag}> is neither <mujoco> nor <robot>")
+
+
+def _scene(
+    collected: Collected,
+    friction: float,
+    density: float | None,
+    gravity: Sequence[float] | None,
+    tolerance: float | None,
+) -> Scene:
+    from drystone.scene import Scene
+
+    if tolerance is None:
+        tolerance = TOUCHING * collected.extent
+    if gravity is None:
+        gravity = collected.gravity or (0.0, 0.0, -9.81)
+    scene = Scene(3, gravity, friction, contact_tolerance=tolerance)
+    for body in collected.bodies:
+        scene.add_solid(
+            body.pieces,
+            name=body.name,
+            density=body.density if density is None else density,
+            friction=body.friction,
+            fixed=body.fixed,
+        )
+    return scene
+
+
+def _reasons(collected: Collected) -> str:
+    reasons = [f"{out.what}: {out.why}" for out in collected.left_out[:3]]
+    return f" ({'; '.join(reasons)})" if reasons else ""
