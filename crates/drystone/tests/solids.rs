@@ -255,3 +255,60 @@ fn an_extruded_arch_has_the_planar_verdict() {
         assert_eq!(check(&scene, None).unwrap().stable, check(&solid, None).unwrap().stable, "{voussoirs} {thickness}");
     }
 }
+
+/// Flat, thin and slanted pieces: the hull of a tetrahedron is itself whatever its proportions.
+#[test]
+fn thin_pieces_are_no_flat_ones() {
+    for thickness in [1.0, 1e-2, 1e-3, 1e-5, 1e-7] {
+        let corners =
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, thickness]].map(Vector3::from_array);
+        let hull = Polyhedron::hull(&corners).unwrap();
+        assert_eq!((hull.vertices(), hull.faces().len()), (&corners[..], 4), "{thickness}");
+    }
+    let flat = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 1e-9]].map(Vector3::from_array);
+    assert_eq!(Polyhedron::hull(&flat).unwrap_err(), SolidFault::ZeroVolume);
+}
+
+/// The corners of random cuboids, prisms and points on spheres, shuffled, moved, thinned and rounded to single precision.
+#[test]
+fn random_hulls_are_closed_and_hold_their_points() {
+    use rand::{Rng, SeedableRng};
+    let mut random = rand_pcg::Pcg64::seed_from_u64(7);
+    for case in 0..3000 {
+        let count = random.random_range(4..40);
+        let scale = [1.0, 10f64.powi(-random.random_range(0..5)), 1.0];
+        let single = case % 3 == 0;
+        let mut points: Vec<Vector3> = (0..count)
+            .map(|k| match case % 4 {
+                0 => Vector3::new(random.random(), random.random(), random.random()),
+                1 => {
+                    let (sin, cos) = (std::f64::consts::TAU * f64::from(k / 2) / f64::from(count)).sin_cos();
+                    Vector3::new(cos, sin, f64::from(k % 2))
+                }
+                2 => Vector3::new(
+                    random.random::<f64>() - 0.5,
+                    random.random::<f64>() - 0.5,
+                    random.random::<f64>() - 0.5,
+                )
+                .normalize(),
+                _ => Vector3::new(
+                    f64::from(random.random_range(0..3)),
+                    f64::from(random.random_range(0..3)),
+                    f64::from(random.random_range(0..3)),
+                ),
+            })
+            .collect();
+        let turn = PoseInSpace { position: [3.0, -2.0, 5.0], orientation: turned([0.6, 0.0, 0.8], random.random()) };
+        for v in &mut points {
+            *v = turn.transform(Vector3::new(v.x * scale[0], v.y * scale[1], v.z * scale[2]));
+            if single {
+                *v = Vector3::new(f64::from(v.x as f32), f64::from(v.y as f32), f64::from(v.z as f32));
+            }
+        }
+        match Polyhedron::hull(&points) {
+            // Euler's formula: a closed surface without holes.
+            Ok(hull) => assert_eq!(hull.vertices().len() + hull.faces().len(), hull.edges().len() + 2, "case {case}"),
+            Err(fault) => assert_eq!(fault, SolidFault::ZeroVolume, "case {case}"),
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! Convex polyhedra: the hull of points, with the whole of each flat face in one piece.
 
 use super::Vector3;
+use faer::{Mat, Side};
 use parry3d_f64::transformation::try_convex_hull;
 use std::collections::BTreeMap;
 use thiserror::Error;
@@ -94,24 +95,46 @@ impl Polyhedron {
         Self::of((0..8).map(corner).collect(), faces).expect("a cuboid is closed")
     }
 
-    /// The convex hull of points, in metres. Points within the hull or within a face are left out; the others keep
-    /// their order.
+    /// The convex hull of points, in metres. Points within the hull, within a face or within an edge are left out; the
+    /// others keep their order.
     ///
     /// # Errors
     /// [`SolidFault`].
     pub fn hull(points: &[Vector3]) -> Result<Self, SolidFault> {
         let extent = check_points(points)?;
         let corners = distinct(points, extent);
-        let planes = supporting_planes(&corners, extent)?;
-        let mut faces: Vec<Vec<usize>> = planes.iter().map(|plane| plane.outline(&corners, extent)).collect();
+        let mut faces = flat_faces(&corners, &hull_triangles(&corners)?, extent)?;
+        drop_inner_corners(&mut faces);
+        faces.iter_mut().for_each(|face| start_at_least(face));
         faces.sort();
-        faces.dedup();
         let mut kept: Vec<usize> = faces.iter().flatten().copied().collect();
         kept.sort_unstable();
         kept.dedup();
         let place: BTreeMap<usize, usize> = kept.iter().enumerate().map(|(new, &old)| (old, new)).collect();
         faces.iter_mut().flatten().for_each(|vertex| *vertex = place[vertex]);
-        Self::of(kept.into_iter().map(|k| corners[k]).collect(), faces)
+        let hull = Self::of(kept.into_iter().map(|k| corners[k]).collect(), faces)?;
+        hull.holds(&corners, extent)?;
+        Ok(hull)
+    }
+
+    /// Refuses a hull that leaves points outside, or is too flat to have a volume.
+    fn holds(&self, points: &[Vector3], extent: f64) -> Result<(), SolidFault> {
+        for (face, normal) in self.faces.iter().zip(&self.normals) {
+            let offset = normal.dot(self.vertices[face[0]]);
+            let [least, most] = points
+                .iter()
+                .map(|p| normal.dot(*p) - offset)
+                .fold([0.0_f64; 2], |[low, high], x| [low.min(x), high.max(x)]);
+            if -least <= FLAT * extent {
+                return Err(SolidFault::ZeroVolume);
+            }
+            // The plane of a face of many corners may be this far from each of them, on either side.
+            if most > 4.0 * STRAIGHT * extent {
+                let reason = format!("a vertex is {most:.1e} m outside");
+                return Err(SolidFault::NoHull { reason });
+            }
+        }
+        Ok(())
     }
 
     fn of(vertices: Vec<Vector3>, faces: Vec<Vec<usize>>) -> Result<Self, SolidFault> {
@@ -194,61 +217,117 @@ fn distinct(points: &[Vector3], extent: f64) -> Vec<Vector3> {
     kept
 }
 
-/// A plane with all points on one side of it.
-struct Plane {
-    normal: Vector3,
-    /// Coordinate along the normal.
-    offset: f64,
-}
-
-/// The planes of the hull's faces, each at least once.
-fn supporting_planes(points: &[Vector3], extent: f64) -> Result<Vec<Plane>, SolidFault> {
-    // About the first point, so that nothing is lost far from the origin.
-    let origin = points[0];
-    let near: Vec<Vector3> = points.iter().map(|p| *p - origin).collect();
-    let hull = std::panic::catch_unwind(|| try_convex_hull(&near));
+/// The triangles of the hull of points, by their numbers.
+fn hull_triangles(points: &[Vector3]) -> Result<Vec<[usize; 3]>, SolidFault> {
+    let round = rounded(points)?;
+    let hull = std::panic::catch_unwind(|| try_convex_hull(&round));
     let (vertices, triangles) = match hull {
         Ok(Ok(hull)) => hull,
-        Ok(Err(parry3d_f64::transformation::ConvexHullError::MissingSupportPoint)) => {
-            return Err(SolidFault::ZeroVolume);
-        }
         Ok(Err(error)) => return Err(SolidFault::NoHull { reason: error.to_string() }),
         Err(_) => return Err(SolidFault::NoHull { reason: "the search for it failed".into() }),
     };
-    let mut planes = Vec::new();
-    for [a, b, c] in triangles.into_iter().map(|triangle| triangle.map(|k| vertices[k as usize])) {
-        let square = (b - a).cross(c - a);
-        // A sliver's normal is rounding; the faces beside it have larger triangles.
-        if square.length() <= STRAIGHT * extent * extent {
+    // The hull's vertices are copies of the points.
+    let bits = |v: &Vector3| v.to_array().map(f64::to_bits);
+    let number: BTreeMap<[u64; 3], usize> = round.iter().enumerate().map(|(k, v)| (bits(v), k)).collect();
+    Ok(triangles.into_iter().map(|triangle| triangle.map(|k| number[&bits(&vertices[k as usize])])).collect())
+}
+
+/// The points mapped so that they spread alike in all directions: the search for a hull takes what is a thousand times
+/// wider than thick for flat, and an affine map changes no hull.
+fn rounded(points: &[Vector3]) -> Result<Vec<Vector3>, SolidFault> {
+    let count = points.len() as f64;
+    let mean = points.iter().map(|p| *p - points[0]).sum::<Vector3>() / count + points[0];
+    let near: Vec<Vector3> = points.iter().map(|p| *p - mean).collect();
+    let spread = Mat::from_fn(3, 3, |i, j| near.iter().map(|v| v[i] * v[j]).sum::<f64>() / count);
+    let no_hull = |_| SolidFault::NoHull { reason: "its axes were not found".into() };
+    let eigen = spread.self_adjoint_eigen(Side::Lower).map_err(no_hull)?;
+    let axis = |k: usize| Vector3::new(eigen.U()[(0, k)], eigen.U()[(1, k)], eigen.U()[(2, k)]);
+    // Right-handed, so that triangles keep their outside.
+    let axes = [axis(0), axis(1), axis(0).cross(axis(1))];
+    // From the points, not from the spread: its least eigenvalue has lost what is a hundred millionth as thick as wide.
+    let reach = axes.map(|axis| near.iter().map(|v| axis.dot(*v).abs()).fold(0.0, f64::max));
+    let widest = reach.into_iter().fold(0.0, f64::max);
+    if reach.iter().any(|&reach| reach <= FLAT * widest) {
+        return Err(SolidFault::ZeroVolume);
+    }
+    let round = |v: &Vector3| Vector3::from_array([0, 1, 2].map(|k| axes[k].dot(*v) / reach[k]));
+    Ok(near.iter().map(round).collect())
+}
+
+/// The outlines of the flat faces of a closed surface of triangles: from the largest triangle on, each takes its
+/// neighbours in as long as they lie on its plane.
+fn flat_faces(points: &[Vector3], triangles: &[[usize; 3]], extent: f64) -> Result<Vec<Vec<usize>>, SolidFault> {
+    let square = |k: usize| {
+        let [a, b, c] = triangles[k].map(|k| points[k]);
+        (b - a).cross(c - a)
+    };
+    let sides = |k: usize| [0, 1, 2].map(|side| [triangles[k][side], triangles[k][(side + 1) % 3]]);
+    let beside: BTreeMap<[usize; 2], usize> =
+        (0..triangles.len()).flat_map(|k| sides(k).into_iter().map(move |side| (side, k))).collect();
+    let mut largest: Vec<usize> = (0..triangles.len()).collect();
+    largest.sort_by(|&i, &j| square(j).length().total_cmp(&square(i).length()).then(i.cmp(&j)));
+    let mut face_of: Vec<Option<usize>> = vec![None; triangles.len()];
+    let mut faces = Vec::new();
+    for &first in &largest {
+        if face_of[first].is_some() {
             continue;
         }
-        let normal = square.normalize();
-        let offset = near.iter().map(|p| normal.dot(*p)).fold(f64::NEG_INFINITY, f64::max);
-        let depth = near.iter().map(|p| offset - normal.dot(*p)).fold(0.0, f64::max);
-        if depth <= FLAT * extent {
-            return Err(SolidFault::ZeroVolume);
+        let (normal, corner) = (square(first).normalize_or_zero(), points[triangles[first][0]]);
+        let on_plane = |k: usize| normal.dot(points[k] - corner).abs() <= STRAIGHT * extent;
+        let mut members = vec![first];
+        face_of[first] = Some(faces.len());
+        let mut next = 0;
+        while let Some(&member) = members.get(next) {
+            next += 1;
+            for [a, b] in sides(member) {
+                let Some(&other) = beside.get(&[b, a]) else {
+                    return Err(SolidFault::NoHull { reason: "it is open".into() });
+                };
+                // Not round a sharp edge, of which both sides may lie on the plane of a piece that is thin there.
+                let along = square(other).dot(normal) >= 0.0;
+                if face_of[other].is_none() && along && triangles[other].iter().all(|&k| on_plane(k)) {
+                    face_of[other] = Some(faces.len());
+                    members.push(other);
+                }
+            }
         }
-        planes.push(Plane { normal, offset: offset + normal.dot(origin) });
+        faces.push(members);
     }
-    match planes.is_empty() {
-        true => Err(SolidFault::ZeroVolume),
-        false => Ok(planes),
+    let border = |(face, members): (usize, &Vec<usize>)| {
+        let inner = |side: &[usize; 2]| face_of[beside[&[side[1], side[0]]]] == Some(face);
+        outline(members.iter().flat_map(|&k| sides(k)).filter(|side| !inner(side)))
+    };
+    faces.iter().enumerate().map(border).collect()
+}
+
+/// Sides as one closed loop.
+fn outline(sides: impl Iterator<Item = [usize; 2]>) -> Result<Vec<usize>, SolidFault> {
+    let next: BTreeMap<usize, usize> = sides.map(|[a, b]| (a, b)).collect();
+    let first = next.keys().next().copied().unwrap_or_default();
+    let mut corners = vec![first];
+    while let Some(&corner) = next.get(&corners[corners.len() - 1])
+        && corner != first
+        && corners.len() <= next.len()
+    {
+        corners.push(corner);
+    }
+    match corners.len() == next.len() {
+        true => Ok(corners),
+        false => Err(SolidFault::NoHull { reason: "a face has a hole".into() }),
     }
 }
 
-impl Plane {
-    /// The points on the plane that are corners of their hull, counter-clockwise from outside, the smallest index first.
-    fn outline(&self, points: &[Vector3], extent: f64) -> Vec<usize> {
-        let on = |k: &usize| self.offset - self.normal.dot(points[*k]) <= STRAIGHT * extent;
-        let u = self.normal.any_orthonormal_vector();
-        let v = self.normal.cross(u);
-        let flat = |k: usize| [u.dot(points[k]), v.dot(points[k])];
-        let corners: Vec<(usize, [f64; 2])> = (0..points.len()).filter(on).map(|k| (k, flat(k))).collect();
-        let mut loop_ = convex_outline(corners, STRAIGHT * extent);
-        let first = (0..loop_.len()).min_by_key(|&k| loop_[k]).unwrap_or(0);
-        loop_.rotate_left(first);
-        loop_
-    }
+/// Drops corners of two faces only: they lie within an edge.
+fn drop_inner_corners(faces: &mut [Vec<usize>]) {
+    let mut count: BTreeMap<usize, usize> = BTreeMap::new();
+    faces.iter().flatten().for_each(|&corner| *count.entry(corner).or_default() += 1);
+    faces.iter_mut().for_each(|face| face.retain(|corner| count[corner] > 2));
+}
+
+/// Turns a loop so that it begins with its least number.
+fn start_at_least(face: &mut [usize]) {
+    let least = (0..face.len()).min_by_key(|&k| face[k]).unwrap_or(0);
+    face.rotate_left(least);
 }
 
 /// The corners of the convex hull of numbered points in the plane, counter-clockwise; points within `tolerance` of a straight
