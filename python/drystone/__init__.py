@@ -20,7 +20,7 @@ if TYPE_CHECKING:
         __version__,
     )
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
-    from drystone.planning import Plan, TestRecord, plan
+    from drystone.planning import Blocked, Plan, TestRecord, plan
     from drystone.scene import Body, Contact, Piece, Scene, Solid
     from drystone.simulation import Run, simulate
     from drystone.statics import StaticsError
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from drystone.world import StepRecord, World
 
 __all__ = [
+    "Blocked",
     "Body",
     "Contact",
     "ContactForce",
@@ -66,6 +67,7 @@ __all__ = [
 
 _MODULES = ("imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
+    "Blocked": "drystone.planning",
     "Body": "drystone.scene",
     "Contact": "drystone.scene",
     "ContactForce": "drystone.verdict",

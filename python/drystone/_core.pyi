@@ -209,6 +209,12 @@ class Plan:
     order: list[str]
     reached: list[str]
     falls_next: list[str]
+    held: list[list[str]]
+    """For each structure on the way to `reached`, of one block, of two and so on."""
+    directions: list[tuple[float, float, float]]
+    """For each block of `reached`; empty if straight lines were not asked for."""
+    blocked: list[tuple[str, list[tuple[tuple[float, float, float], list[str]]]]]
+    """(body, [(direction, bodies in the way)])."""
     tests: int
     pivots: int
     test_seconds: float
@@ -486,10 +492,13 @@ def plan(
     shortcuts: bool = True,
     threads: int | None = None,
     cones: tuple[int, str] | None = None,
+    hold: int = 0,
+    directions: Sequence[tuple[float, float, float]] | None = None,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
     `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
+    Blocks leave along straight lines if there are `directions`, be they none.
     """
 
 def forces_along(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,8 @@ TESTS = ("reuse", "reuse-dantzig", "lcp", "lp", "lp-warm")
 
 ENDINGS = {
     "no_order": "No stable order exists",
+    "undecided": "No order found, though not every way to hold was tried",
+    "locked": "No order: blocks lock one another in",
     "whole_falls": "No order: the complete assembly does not stand",
     "test_limit": "No order yet: the limit of tests was reached",
     "time_limit": "No order yet: the time was up",
@@ -45,6 +47,20 @@ class TestRecord:
     stable: bool
 
 
+@dataclass(frozen=True, slots=True)
+class Blocked:
+    """A block that cannot leave along a straight line."""
+
+    name: str
+    ways: tuple[tuple[tuple[float, ...], tuple[str, ...]], ...]
+    """For each direction looked at, a unit vector, the bodies that are in the way."""
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """Every body that is in the way in some direction."""
+        return tuple(dict.fromkeys(name for _, names in self.ways for name in names))
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Plan:
     """The answer of `plan`."""
@@ -52,13 +68,24 @@ class Plan:
     found: bool
     status: str
     """"found", "no_order" (none exists), "whole_falls" (the complete assembly does not stand),
-    "test_limit", "time_limit" or "interrupted"."""
+    "test_limit", "time_limit" or "interrupted"; with `clear_path` also "locked" (some blocks lock
+    one another in), with `hold` also "undecided" (none was found, but a structure was given up
+    under some hold, as no hand was free to take it or there were too many to try)."""
     order: tuple[str, ...]
     """Names of the blocks, first removed first; empty if no order was found."""
     reached: tuple[str, ...]
     """The largest sub-assembly that was built up and stands."""
     falls_next: tuple[str, ...]
     """Without an order: the blocks any of which, added to `reached`, makes something fall."""
+    holds: tuple[tuple[str, ...], ...]
+    """Of every structure on the way the blocks that are held: `holds[k]` while all but the first
+    k blocks of `order` stand. Without an order: of `reached`, the last put up taken away first."""
+    directions: tuple[tuple[float, ...], ...]
+    """With `clear_path`: unit vectors along which the blocks of `order` leave, one by one; without
+    an order those of `reached`, the last put up first."""
+    blocked: tuple[Blocked, ...]
+    """With `clear_path` and no order: the blocks that lock one another in, or else those that
+    cannot be put on `reached` because something is in the way."""
     tests: int
     """Stability tests of proper sub-assemblies."""
     pivots: int
@@ -89,6 +116,12 @@ class Plan:
             tuple(core.order),
             tuple(core.reached),
             tuple(core.falls_next),
+            tuple(tuple(held) for held in reversed(core.held)),
+            tuple(way[: scene.dimension] for way in reversed(core.directions)),
+            tuple(
+                Blocked(name, tuple((way[: scene.dimension], tuple(by)) for way, by in ways))
+                for name, ways in core.blocked
+            ),
             core.tests,
             core.pivots,
             core.test_seconds,
@@ -101,6 +134,20 @@ class Plan:
             cones,
         )
 
+    @property
+    def hold_steps(self) -> list[tuple[str, str, int]]:
+        """("hold" or "release", name, k): what hands do before block k of `order` is taken away.
+
+        New holds come before releases. A block that is taken away while it is held is released by
+        that: the hand that holds it carries it off. Without an order the steps are those of taking
+        `reached` apart.
+        """
+        steps = [("hold", name, 0) for name in self.holds[0]] if self.holds else []
+        for k, (held, then) in enumerate(zip(self.holds, (*self.holds, ())[1:], strict=True)):
+            steps += [("hold", name, k) for name in then if name not in held]
+            steps += [("release", name, k) for name in held if name not in then]
+        return steps
+
     def __str__(self) -> str:
         work = (
             f"{counted(self.tests, 'test')}, {counted(self.pivots, 'pivot')}, "
@@ -109,13 +156,23 @@ class Plan:
         if self.found:
             return (
                 f"Order found for {counted(len(self.order), 'block')}; {work}.\n"
-                f"Remove first: {shorten(self.order)}."
+                f"Remove first: {shorten(self.order)}.{self._said_of_holds()}"
             )
         text = f"{ENDINGS.get(self.status, self.status)}; {work}."
         text += f"\nLargest sub-assembly reached: {counted(len(self.reached), 'block')}"
         if self.falls_next:
             text += f"; it falls if any of these is added: {shorten(self.falls_next)}"
-        return text + "."
+        if self.blocked:
+            stuck = (f"{one.name} (by {shorten(one.by)})" for one in self.blocked)
+            text += f"; in the way is something of {shorten(stuck)}"
+        return text + "." + self._said_of_holds()
+
+    def _said_of_holds(self) -> str:
+        steps = [name for action, name, _ in self.hold_steps if action == "hold"]
+        if not steps:
+            return ""
+        at_once = max(len(held) for held in self.holds)
+        return f"\nTakes {counted(len(steps), 'hold')}, at most {at_once} at a time."
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene, in types that JSON knows."""
@@ -125,6 +182,16 @@ class Plan:
             "order": list(self.order),
             "reached": list(self.reached),
             "falls_next": list(self.falls_next),
+            "holds": [list(held) for held in self.holds] if any(self.holds) else [],
+            "hold_steps": [list(step) for step in self.hold_steps],
+            "directions": [list(direction) for direction in self.directions],
+            "blocked": [
+                {
+                    "name": one.name,
+                    "ways": [{"direction": list(way), "by": list(by)} for way, by in one.ways],
+                }
+                for one in self.blocked
+            ],
             "test": self.test,
             "tests": self.tests,
             "shortcuts": self.shortcuts,
@@ -171,6 +238,9 @@ def plan(
     progress: Progress | None = None,
     shortcuts: bool = True,
     threads: int | None = None,
+    hold: int = 0,
+    clear_path: bool = False,
+    directions: Sequence[Sequence[float]] | None = None,
     *,
     facets: int = FACETS,
     cone: str = CONES[0],
@@ -204,10 +274,27 @@ def plan(
     `facets` and `cone` ("inscribed" or "circumscribed") are the friction cones in space: see
     `check`.
 
+    If there is no order, up to `hold` blocks (at most 8) may be held at a time, by a robot's hand
+    or a scaffold: a held block bears whatever acts on it. Which, is in `Plan.holds`, and there are
+    as few holds as the order found allows. The block that is put up or taken away is in one more
+    hand, which may go on holding it; apart from that a new block is held before an old one is let
+    go. Held structures are decided as by "reuse".
+
+    With `clear_path` every block has to leave along a straight line without passing through those
+    that remain, sliding along them allowed: in one of `directions` (any length), against gravity,
+    along the axes, or along or across one of its contacts. The first that is free is in
+    `Plan.directions`.
+
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found
     True
+    >>> ds.plan(ds.scenes.arch(7)).status, ds.plan(ds.scenes.arch(7), hold=1).status
+    ('no_order', 'found')
     """
+    if hold < 0:
+        raise ValueError(f"hold is {hold}: it must be zero or more")
+    if directions is not None and not clear_path:
+        raise ValueError("directions are for straight ways out: give clear_path=True with them")
     for limit, what in ((node_limit, "node_limit"), (time_limit, "time_limit")):
         if limit is not None and not limit >= 0:
             raise ValueError(f"{what} is {limit}: it must be zero or more")
@@ -224,11 +311,21 @@ def plan(
             shortcuts,
             threads,
             cones,
+            hold,
+            [_way(scene, way) for way in directions or ()] if clear_path else None,
         ),
         test,
         scene,
         cones,
     )
+
+
+def _way(scene: Scene, way: Sequence[float]) -> tuple[float, float, float]:
+    """In the plane z is zero."""
+    if len(way) != scene.dimension:
+        raise ValueError(f"directions: {tuple(way)} must have {scene.dimension} numbers")
+    x, y, z = (*way, 0.0)[:3]
+    return x, y, z
 
 
 def _stability_test(

@@ -122,6 +122,15 @@ def test_the_order_is_coloured_and_numbered() -> None:
     assert len(figure.axes) == 2, "the second is the colour bar"
 
 
+def test_held_blocks_are_hatched_and_arrows_say_where_blocks_leave() -> None:
+    plan = ds.plan(ds.scenes.arch(7), hold=1, clear_path=True)
+    figure = pictures.plan_figure(plan)
+    hatched = [c for c in figure.axes[0].collections if c.get_hatch() == "\\\\\\\\"]
+    assert [len(c.get_paths()) for c in hatched] == [len({n for held in plan.holds for n in held})]
+    assert len(_arrows(figure, style.WAY)) == len(plan.order)
+    assert any("held on the way" in text.get_text() for text in figure.texts)
+
+
 def test_large_scenes_drop_labels_and_stay_readable() -> None:
     scene = ds.scenes.wall(45, 55)
     figure = pictures.scene_figure(scene)

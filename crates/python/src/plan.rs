@@ -2,8 +2,10 @@
 
 use crate::{arrays::vector, errors::plan_error, scene::Scene, verdict::Verdict, watch::Watch};
 use drystone::{
-    formulate::{Assembly, BlockSet},
-    plan::{self as core, Limits, PlanError, StabilityTest, Test, TestOutcome},
+    AnyScene,
+    formulate::{Assemble, Assembly, BlockSet},
+    plan::{self as core, ClearPath, Conditions, Limits, PlanError, StabilityTest, Test, TestOutcome},
+    scene::SceneOf,
 };
 use numpy::PyArray1;
 use pyo3::{
@@ -20,6 +22,12 @@ pub struct TestRecord {
     stable: bool,
 }
 
+/// A unit vector, z = 0 in the plane.
+type Way = (f64, f64, f64);
+
+/// A body that cannot leave; for each direction the bodies in the way.
+type BlockedBy = (String, Vec<(Way, Vec<String>)>);
+
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct Plan {
     status: String,
@@ -27,6 +35,9 @@ pub struct Plan {
     order: Vec<String>,
     reached: Vec<String>,
     falls_next: Vec<String>,
+    held: Vec<Vec<String>>,
+    directions: Vec<Way>,
+    blocked: Vec<BlockedBy>,
     tests: usize,
     pivots: usize,
     test_seconds: f64,
@@ -99,7 +110,7 @@ impl StabilityTest for Callback {
 
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // those of the Python function
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None))]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, directions=None))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -110,24 +121,48 @@ pub fn plan(
     shortcuts: bool,
     threads: Option<usize>,
     cones: Option<(usize, String)>,
+    hold: usize,
+    directions: Option<Vec<[f64; 3]>>,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
+    let conditions = Conditions { hold, clear_path: directions.map(|directions| ClearPath { directions }) };
     let mut watch = Watch::new(progress);
     let start = Instant::now();
     let assembly = scene.assembly(py, cones)?;
     let contacts = start.elapsed();
-    let planned = if test.is_callable() {
-        let mut test = Callback { function: test.clone().unbind() };
-        py.detach(|| core::plan_with(&assembly, &mut test, limits, &mut watch))
-    } else {
-        let test = named_test(&test.extract::<String>()?)?;
-        py.detach(|| core::plan_assembly(&assembly, test, limits, &mut watch))
+    let asked = match test.is_callable() {
+        true => Asked::Callback(Callback { function: test.clone().unbind() }),
+        false => Asked::Named(named_test(&test.extract::<String>()?)?),
     };
+    let planned = py.detach(|| match &scene.core {
+        AnyScene::Plane(scene) => planned(scene, &assembly, asked, &conditions, limits, &mut watch),
+        AnyScene::Space(scene) => planned(scene, &assembly, asked, &conditions, limits, &mut watch),
+    });
     match watch.error() {
         Some(error) => Err(error),
         None => to_python(py, &assembly, &planned.map_err(plan_error)?, contacts),
+    }
+}
+
+/// A stability test of the core, or one from Python.
+enum Asked {
+    Named(Test),
+    Callback(Callback),
+}
+
+fn planned<S: Assemble>(
+    scene: &SceneOf<S>,
+    assembly: &Assembly,
+    asked: Asked,
+    conditions: &Conditions,
+    limits: Limits,
+    watch: &mut Watch,
+) -> Result<core::Plan, PlanError> {
+    match asked {
+        Asked::Named(test) => core::plan_assembly_under(scene, assembly, test, conditions, limits, watch),
+        Asked::Callback(mut test) => core::plan_with_under(scene, assembly, &mut test, conditions, limits, watch),
     }
 }
 
@@ -142,8 +177,15 @@ fn named_test(name: &str) -> PyResult<Test> {
     }
 }
 
+/// Without minus zeros.
+fn clean(&[x, y, z]: &[f64; 3]) -> Way {
+    (x + 0.0, y + 0.0, z + 0.0)
+}
+
 fn to_python(py: Python<'_>, assembly: &Assembly, plan: &core::Plan, contacts: Duration) -> PyResult<Plan> {
-    let names = |bodies: &[usize]| bodies.iter().map(|&index| assembly.bodies()[index].name.clone()).collect();
+    let name = |index: usize| assembly.bodies()[index].name.clone();
+    let names = |bodies: &[usize]| -> Vec<String> { bodies.iter().map(|&index| name(index)).collect() };
+    let way = |(direction, bodies): &([f64; 3], Vec<usize>)| (clean(direction), names(bodies));
     let record = |record: &core::TestRecord| {
         let (TestOutcome { stands, pivots }, seconds) = (record.outcome, record.time.as_secs_f64());
         Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
@@ -156,6 +198,9 @@ fn to_python(py: Python<'_>, assembly: &Assembly, plan: &core::Plan, contacts: D
         order: names(&plan.order),
         reached: names(&plan.reached),
         falls_next: names(&plan.falls_next),
+        held: plan.held.iter().map(|held| names(held)).collect(),
+        directions: plan.directions.iter().map(clean).collect(),
+        blocked: plan.blocked.iter().map(|b| (name(b.body), b.ways.iter().map(way).collect())).collect(),
         tests: plan.records.len(),
         pivots: plan.pivots(),
         test_seconds: plan.test_time().as_secs_f64(),

@@ -141,6 +141,13 @@ def plan(
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads for one scene; one a core.")
     ] = None,
+    hold: Annotated[
+        int,
+        typer.Option(min=0, max=8, help="Where there is no order: hold so many blocks at a time."),
+    ] = 0,
+    clear_path: Annotated[
+        bool, typer.Option("--clear-path", help="Blocks have to leave along a straight line.")
+    ] = False,
     facets: Facets = 8,
     cone: Annotated[
         Cone, typer.Option(help="In space: cones within or around the round ones.")
@@ -175,6 +182,8 @@ def plan(
 
         if threads is not None:
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
+        if hold or clear_path:
+            raise InputError(f"{scene} is a folder: --hold and --clear-path are for one scene")
         where = (engine or Engine.threads).value
         limits = (node_limit, time_limit)
         return plan_many.run(
@@ -186,7 +195,17 @@ def plan(
 
     limits = (node_limit, time_limit)
     return command.run(
-        scene, test.value, *limits, shortcuts, threads, facets, cone.value, as_json, output
+        scene,
+        test.value,
+        *limits,
+        shortcuts,
+        threads,
+        hold,
+        clear_path,
+        facets,
+        cone.value,
+        as_json,
+        output,
     )
 
 

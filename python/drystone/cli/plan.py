@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from itertools import groupby
 from pathlib import Path
 
 from drystone.cli.inputs import load_scene, page_path, picture_path, reporting_files
@@ -17,6 +18,8 @@ def run(
     time_limit: float | None,
     shortcuts: bool,
     threads: int | None,
+    hold: int,
+    clear_path: bool,
     facets: int,
     cone: str,
     as_json: bool,
@@ -34,6 +37,8 @@ def run(
             progress,
             shortcuts,
             threads,
+            hold,
+            clear_path,
             facets=facets,
             cone=cone,
         )
@@ -70,8 +75,34 @@ def _print(found: Plan, picture: Path | None) -> None:
         facts.add_row("falls with any of", " ".join(found.falls_next) or "nothing tried")
         if found.whole is not None:
             facts.add_row("the whole assembly", str(found.whole))
+    if any(found.holds):
+        facts.add_row("hold and release", _hold_steps(found))
+    if found.directions:
+        facts.add_row("leaving towards", _directions(found))
+    for one in found.blocked:
+        facts.add_row(f"in the way of {one.name}", " ".join(one.by))
     facts.add_row("stability test", found.test)
     console.print(facts)
     if picture is not None:
         what = "page" if page_path(picture) else "picture"
         console.print(f"{what}: {picture}", soft_wrap=True)
+
+
+def _hold_steps(found: Plan) -> str:
+    """What hands do, by the block before whose removal they do it."""
+    order = found.order or tuple(reversed(found.reached))
+    before: dict[int, list[str]] = {}
+    for action, name, k in found.hold_steps:
+        before.setdefault(k, []).append(f"{action} {name}")
+    return "; ".join(f"before {order[k]}: {', '.join(steps)}" for k, steps in before.items())
+
+
+def _directions(found: Plan) -> str:
+    """Rounded, without minus zeros; runs of the same one are counted."""
+    texts = (_numbers(way) for way in found.directions)
+    runs = ((text, len(list(run))) for text, run in groupby(texts))
+    return " ".join(text if count == 1 else f"{count} x {text}" for text, count in runs)
+
+
+def _numbers(way: tuple[float, ...]) -> str:
+    return f"({','.join(f'{round(x, 3) + 0.0:g}' for x in way)})"

@@ -37,6 +37,18 @@ def draw_arrows(
     _draw_key(canvas, metres, round_number(peak), unit, colour, key_at)
 
 
+def draw_directions(
+    canvas: Canvas,
+    tails: NDArray[np.float64],
+    directions: NDArray[np.float64],
+    lengths: NDArray[np.float64],
+    colour: str,
+) -> None:
+    """Arrows that say whereto, not how much: unit vectors (n, 2), each of its length (n,)."""
+    for tail, vector in zip(tails, directions * lengths[:, None], strict=True):
+        _arrow(canvas, tail, vector, colour)
+
+
 def round_number(value: float) -> float:
     """The largest of 1, 2, 5 times a power of ten that is not above `value`."""
     power = 10.0 ** np.floor(np.log10(value))

@@ -12,12 +12,13 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize, to_hex
 
 from drystone.pictures import style
-from drystone.pictures.arrows import draw_arrows
+from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.shapes import (
     draw_absent,
     draw_blocks,
     draw_fixed,
+    draw_held,
     draw_labels,
     typical_size,
 )
@@ -81,12 +82,18 @@ def plan_figure(plan: Plan) -> Figure:
     bodies = plan.scene.bodies
     if not plan.found:
         return _unfinished_figure(plan, bodies, headline, work)
+    held = {name for names in plan.holds for name in names}
+    if held:
+        work = f"hatched: held on the way ({_counted_holds(plan)})\n{work}"
     canvas = fitted(bodies, headline, work, colour_bar=True)
     colours = colormaps[style.ORDER_MAP]
     last = max(len(plan.order) - 1, 1)
     fills = {name: to_hex(colours(1 - i / last)) for i, name in enumerate(plan.order)}
     draw_fixed(canvas, bodies)
     draw_blocks(canvas, bodies, fills)
+    draw_held(canvas, [body for body in bodies if body.name in held])
+    if plan.directions:
+        _draw_ways_out(canvas, plan)
     draw_labels(canvas, bodies, {n: str(i + 1) for i, n in enumerate(plan.order)}, fills)
     _draw_order_bar(canvas, len(plan.order))
     return canvas.figure
@@ -96,14 +103,39 @@ def _unfinished_figure(plan: Plan, bodies: Sequence[Body], headline: str, work: 
     legend = f"reached: {counted(len(plan.reached), 'block')}"
     if plan.falls_next:
         legend += "; red: something falls when any of these is added"
+    held = set(plan.holds[0]) if plan.holds else set()
+    if held:
+        legend += "; hatched: held"
+    stuck = [one.name for one in plan.blocked if one.name not in plan.falls_next]
+    if stuck:
+        legend += "; dark: something is in the way of these"
     canvas = fitted(bodies, headline, f"{legend}\n{work}")
-    fills = dict.fromkeys(plan.reached, style.STONE)
+    fills = dict.fromkeys(plan.reached, style.STONE) | dict.fromkeys(stuck, style.STILL)
     fills |= dict.fromkeys(plan.falls_next, style.FALLING)
     draw_fixed(canvas, bodies)
     draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in fills])
     draw_blocks(canvas, bodies, fills, dict.fromkeys(plan.falls_next, style.FALL))
+    draw_held(canvas, [body for body in bodies if body.name in held])
     draw_labels(canvas, bodies, {name: name for name in fills}, fills)
     return canvas.figure
+
+
+def _counted_holds(plan: Plan) -> str:
+    return counted(sum(action == "hold" for action, _, _ in plan.hold_steps), "hold")
+
+
+def _draw_ways_out(canvas: Canvas, plan: Plan) -> None:
+    """From the middle of every block, beside its label, towards where it leaves."""
+    bodies = {body.name: body for body in plan.scene.bodies}
+    ways = np.array(plan.directions)
+    centroids = np.array([bodies[name].centroid for name in plan.order])
+    reach = [
+        float(np.max((bodies[name].vertices - centroid) @ way))
+        for name, centroid, way in zip(plan.order, centroids, ways, strict=True)
+    ]
+    lengths = np.array(reach)
+    tails = centroids + 0.4 * lengths[:, None] * ways
+    draw_directions(canvas, tails, ways, 0.55 * lengths, style.WAY)
 
 
 def _draw_forces(canvas: Canvas, verdict: Verdict, longest: float) -> None:

@@ -44,6 +44,20 @@ def draw_blocks(
     )
 
 
+def draw_held(canvas: Canvas, bodies: Sequence[Body]) -> None:
+    """A hatch over blocks that are held."""
+    canvas.axes.add_collection(
+        PolyCollection(
+            [body.vertices for body in bodies],
+            facecolors="none",
+            edgecolors=style.HELD,
+            hatch="\\\\\\\\",
+            linewidths=0.9,
+        ),
+        autolim=False,
+    )
+
+
 def draw_absent(canvas: Canvas, bodies: Sequence[Body]) -> None:
     """The dotted outlines of bodies that are not there."""
     canvas.axes.add_collection(

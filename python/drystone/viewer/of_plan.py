@@ -42,6 +42,8 @@ def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
         "A chart's value at a step is that of all tests on structures of as many blocks; the whole "
         "is checked apart. Where a structure is redundant, other forces hold it up as well."
     ]
+    if any(plan.holds):
+        notes.append("No forces are shown of structures that stand only because blocks are held.")
     return Recording(
         kind="plan",
         title=headline,
@@ -83,10 +85,27 @@ def _captions(plan: Plan, order: Sequence[str]) -> list[tuple[int, str]]:
         if step == 0 and plan.falls_next:
             any_of = "any of " if len(plan.falls_next) > 1 else ""
             text += f" With {any_of}{shorten(plan.falls_next)} something falls."
+        if step < len(plan.holds) and plan.holds[step]:
+            text += f" Held: {shorten(plan.holds[step])}."
         if step < len(order):
-            text += f" Next: {order[step]}."
+            text += f" Next: {_next_step(plan, order, step)}."
         captions.append((step, text))
     return captions
+
+
+def _next_step(plan: Plan, order: Sequence[str], step: int) -> str:
+    """What hands do first, which block goes, and whereto."""
+    name = order[step]
+    hands = [
+        f"{action} {block}"
+        for action, block, before in plan.hold_steps
+        if before == step and (step > 0 or block not in plan.holds[0]) and block != name
+    ]
+    way = ""
+    if plan.directions:
+        numbers = ", ".join(f"{round(x, 3) + 0.0:g}" for x in plan.directions[step])
+        way = f" towards ({numbers})"
+    return ", ".join([*hands, f"{name}{way}"])
 
 
 def _series(plan: Plan, blocks: int) -> list[Series]:

@@ -115,7 +115,7 @@ pub(crate) fn pair_tolerance<S: Shape>(scene: &SceneOf<S>, a: &Body<S>, b: &Body
 }
 
 /// The largest contact tolerance a block can have in any pair, metres.
-fn tolerance_of<S: Shape>(scene: &SceneOf<S>, body: &Body<S>) -> f64 {
+pub(crate) fn tolerance_of<S: Shape>(scene: &SceneOf<S>, body: &Body<S>) -> f64 {
     let derived = RELATIVE_TOLERANCE * body.shape.width();
     scene.contact_tolerance().unwrap_or(derived)
 }

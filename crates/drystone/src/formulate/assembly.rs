@@ -29,7 +29,7 @@ pub struct Assembly {
     movable: Vec<usize>,
     generators: Vec<Generator>,
     /// Axes of the cones of the contacts that have friction, and which of them is a contact's.
-    axes: Vec<Generator>,
+    pub(super) axes: Vec<Generator>,
     axis_of: Vec<Option<usize>>,
     /// Generators that act on each movable block.
     generators_on: Vec<Vec<usize>>,
@@ -265,10 +265,9 @@ impl Assembly {
     /// what stands by straight pressure alone is then held by few forces, and the basis of its columns is far sparser.
     /// [`Self::magnitude`] gives such a force back to the edges.
     pub fn equilibrium(&self) -> ConeSolver {
-        let units: Vec<f64> = (0..self.blocks()).flat_map(|block| self.balance_unit(block)).collect();
         let columns = self.columns(self.generators.iter().chain(&self.axes));
         let axes = self.generators.len()..columns.len();
-        let mut solver = ConeSolver::new(columns, &self.balance(), &units)
+        let mut solver = ConeSolver::new(columns, &self.balance(), &self.balance_units())
             .expect("a validated scene has finite masses, positions and directions");
         solver.prefer(axes);
         solver
@@ -284,6 +283,11 @@ impl Assembly {
             0..3 => weight,
             _ => weight * (inverse[0] / per_inertia).sqrt(),
         })
+    }
+
+    /// The unit of every row of [`Self::equilibrium`].
+    pub(super) fn balance_units(&self) -> Vec<f64> {
+        (0..self.blocks()).flat_map(|block| self.balance_unit(block)).collect()
     }
 
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.
@@ -302,6 +306,16 @@ impl Assembly {
 
     /// Generators as the columns of G.
     fn columns<'a>(&self, generators: impl Iterator<Item = &'a Generator>) -> Columns {
+        let (indptr, indices, data) = self.compressed(generators);
+        Columns::new(self.applied.len(), &indptr, &indices, &data)
+            .expect("a validated scene has finite masses, positions and directions")
+    }
+
+    /// Generators as compressed columns: where each begins, and the rows and the values of all.
+    pub(super) fn compressed<'a>(
+        &self,
+        generators: impl Iterator<Item = &'a Generator>,
+    ) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for generator in generators {
             for wrench in &generator.wrenches {
@@ -314,12 +328,11 @@ impl Assembly {
             }
             indptr.push(indices.len());
         }
-        Columns::new(self.components.len() * self.blocks(), &indptr, &indices, &data)
-            .expect("a validated scene has finite masses, positions and directions")
+        (indptr, indices, data)
     }
 
     /// What the contact forces have to balance: `-F`.
-    fn balance(&self) -> Vec<f64> {
+    pub(super) fn balance(&self) -> Vec<f64> {
         self.applied.iter().map(|load| -load).collect()
     }
 

@@ -14,6 +14,7 @@ mod assembly;
 mod block_set;
 mod cones;
 mod generator;
+mod hands;
 mod part;
 
 pub use assembly::{Acceleration, Assembly, BlockRows, ContactForce};

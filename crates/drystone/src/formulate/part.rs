@@ -3,7 +3,7 @@
 use crate::{
     contact::{ContactSet, find_contacts, find_solid_contacts},
     error::SceneError,
-    geometry::{Polygon, Shape, Solid},
+    geometry::{Piece, Polygon, Shape, Solid},
     scene::{Body, Scene, SceneOf},
 };
 
@@ -44,6 +44,9 @@ pub trait Assemble: Shape {
     /// A body's mass and place.
     fn part(body: &Body<Self>) -> Part;
 
+    /// A body's convex pieces in the world.
+    fn pieces(body: &Body<Self>) -> Vec<Piece>;
+
     /// A vector of the world, z being 0 in the plane.
     fn in_space(vector: Self::Vector) -> [f64; 3];
 }
@@ -69,6 +72,10 @@ impl Assemble for Polygon {
         }
     }
 
+    fn pieces(body: &Body) -> Vec<Piece> {
+        vec![Piece::planar(&body.vertices())]
+    }
+
     fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
         [x, y, 0.0]
     }
@@ -92,6 +99,10 @@ impl Assemble for Solid {
             center: body.pose.position,
             radius: body.shape.radius(),
         }
+    }
+
+    fn pieces(body: &Body<Self>) -> Vec<Piece> {
+        Piece::of_solid(&body.shape, &body.pose)
     }
 
     fn in_space(vector: [f64; 3]) -> [f64; 3] {

@@ -6,6 +6,7 @@ mod pose;
 mod pose_in_space;
 mod shape;
 mod solid;
+mod sweep;
 
 pub use parry2d_f64::math::Vector;
 pub use parry3d_f64::math::Vector as Vector3;
@@ -16,3 +17,5 @@ pub use pose::Pose;
 pub use pose_in_space::PoseInSpace;
 pub use shape::Shape;
 pub use solid::Solid;
+pub use sweep::Piece;
+pub(crate) use sweep::{cross, dot, unit};

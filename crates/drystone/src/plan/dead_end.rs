@@ -1,28 +1,46 @@
 //! How far one gets where there is no order.
 
-use super::stability::{PlanError, Reuse, StabilityTest};
+use super::clear_path::Paths;
+use super::stability::{PlanError, StabilityTest};
 use super::touching::Touching;
-use crate::formulate::{Assembly, BlockSet};
+use crate::formulate::BlockSet;
 
-/// Grows a sub-assembly as long as it stands, and says which blocks make it fall then. A search that knows that there is
-/// no order need not have tried them all.
+/// Puts a sub-assembly up that was found to stand block by block, and returns it as a set.
 ///
 /// # Errors
 /// [`PlanError::NoAnswer`] in numerical trouble.
-pub(super) fn dead_end(
-    assembly: &Assembly,
+pub(super) fn put_up(
+    test: &mut dyn StabilityTest,
     touching: &Touching,
-    reached: &mut Vec<usize>,
-) -> Result<Vec<usize>, PlanError> {
-    let mut test = Reuse::new(assembly);
-    let mut current = BlockSet::empty(assembly.blocks());
-    for &block in reached.iter() {
+    reached: &[usize],
+) -> Result<BlockSet, PlanError> {
+    let mut current = BlockSet::empty(touching.blocks());
+    for &block in reached {
         current.insert(block);
         test.test(&current, block)?;
         test.descend();
     }
+    Ok(current)
+}
+
+/// Grows a sub-assembly as long as it stands, and says which blocks make it fall then. A search that knows that there is
+/// no order need not have tried them all. `test` is at the bare supports.
+///
+/// # Errors
+/// [`PlanError::NoAnswer`] in numerical trouble.
+pub(super) fn dead_end(
+    test: &mut dyn StabilityTest,
+    touching: &Touching,
+    paths: Option<&Paths<'_>>,
+    reached: &mut Vec<usize>,
+) -> Result<Vec<usize>, PlanError> {
+    let mut current = put_up(test, touching, reached)?;
     let (mut falls, mut from) = (Vec::new(), 0);
     while let Some((place, block)) = touching.candidate(&current, from) {
+        if paths.is_some_and(|paths| paths.way_out(block, &current).is_none()) {
+            from = place + 1;
+            continue;
+        }
         current.insert(block);
         if test.test(&current, block)?.stands {
             test.descend();

@@ -183,6 +183,16 @@ impl Memory for Learned<'_> {
         self.fail(added, reason);
     }
 
+    fn fell_however_held(&mut self, place: &Place<'_>, added: usize, collapses: &[Collapse]) {
+        let reason = Reason::of_all(collapses.iter().map(|collapse| {
+            let nogood = Nogood::of_collapse(collapse, place.current, self.touching);
+            nogood.reason(added, place.current, place.position)
+        }));
+        let blocks: Vec<usize> = reason.blame.iter().copied().chain([added]).collect();
+        self.learn(&Rc::new(Nogood::of_sets(&blocks, reason.absent.clone())));
+        self.fail(added, reason);
+    }
+
     fn stood(&mut self, _place: &Place<'_>) {
         self.failed.push(Vec::new());
     }
@@ -194,17 +204,26 @@ impl Memory for Learned<'_> {
             None => Some(self.everything(place)),
         }?;
         self.dead_ends += 1;
-        let Some(last) = place.placed.iter().rposition(|block| trap.blame.contains(block)) else {
-            return Some(Back::NoOrder);
-        };
-        self.learn(&Rc::new(Nogood::of_sets(&trap.blame, trap.absent.clone())));
-        self.failed.truncate(last + 1);
-        let blame = trap.blame.into_iter().filter(|&block| block != place.placed[last]).collect();
-        self.fail(place.placed[last], Reason { blame, absent: trap.absent });
-        Some(Back::To(last))
+        Some(self.step_out_of(trap, place))
+    }
+
+    fn blocked(&mut self, place: &Place<'_>, added: usize, blame: Vec<usize>) -> Back {
+        self.step_out_of(Trap { blame, absent: vec![added] }, place)
     }
 
     fn shortcuts(&self) -> usize {
         self.shortcuts
+    }
+}
+
+impl Learned<'_> {
+    /// Steps back to where the trap is not closed, and learns it.
+    fn step_out_of(&mut self, trap: Trap, place: &Place<'_>) -> Back {
+        let Back::To(last) = Back::before_last_of(&trap.blame, place) else { return Back::NoOrder };
+        self.learn(&Rc::new(Nogood::of_sets(&trap.blame, trap.absent.clone())));
+        self.failed.truncate(last + 1);
+        let blame = trap.blame.into_iter().filter(|&block| block != place.placed[last]).collect();
+        self.fail(place.placed[last], Reason { blame, absent: trap.absent });
+        Back::To(last)
     }
 }

@@ -78,8 +78,20 @@ impl Memory for Watched<'_> {
         self.all_are_sound();
     }
 
+    fn fell_however_held(&mut self, place: &Place<'_>, added: usize, collapses: &[super::Collapse]) {
+        self.learned.fell_however_held(place, added, collapses);
+        self.all_are_sound();
+    }
+
     fn stood(&mut self, place: &Place<'_>) {
         self.learned.stood(place);
+    }
+
+    fn blocked(&mut self, place: &Place<'_>, added: usize, blame: Vec<usize>) -> Back {
+        let back = self.learned.blocked(place, added, blame);
+        assert!(!self.grows[bits(place.current)], "{:?} can be grown to the whole", place.current);
+        self.all_are_sound();
+        back
     }
 
     fn back(&mut self, place: &Place<'_>, failed: Option<usize>) -> Option<Back> {
@@ -110,7 +122,7 @@ fn searched(assembly: &Assembly, memory: &mut dyn Memory) -> (Outcome, Vec<usize
     let touching = Touching::new(assembly);
     let limits = Limits { tests: Some(5000), ..Limits::default() };
     let mut clock = Clock { limits, start: Instant::now(), monitor: &mut Quiet, whole_falls: &AtomicBool::new(false) };
-    let mut search = Search::new(&touching, memory);
+    let mut search = Search::new(&touching, None, memory);
     let outcome = search.run(&mut Reuse::new(assembly), &mut clock).unwrap();
     let order = if outcome == Outcome::Found { search.placed().to_vec() } else { Vec::new() };
     (outcome, order, search.records.len())

@@ -23,6 +23,13 @@ pub(super) enum Back {
     NoOrder,
 }
 
+impl Back {
+    /// To before the last of these blocks.
+    pub fn before_last_of(blame: &[usize], place: &Place<'_>) -> Self {
+        place.placed.iter().rposition(|block| blame.contains(block)).map_or(Self::NoOrder, Self::To)
+    }
+}
+
 /// Knowledge of sub-assemblies that are *lost*: they fall, or cannot be grown to the whole. It must never call one lost
 /// that is not, so that every memory leads a search to the same order.
 pub(super) trait Memory {
@@ -35,8 +42,15 @@ pub(super) trait Memory {
     /// `place.current`, which holds `added` on top, was tested and falls.
     fn fell(&mut self, place: &Place<'_>, added: usize, collapse: Option<Collapse>);
 
+    /// The same, and it falls whichever blocks are held: no hold stops all of these collapses.
+    fn fell_however_held(&mut self, place: &Place<'_>, added: usize, collapses: &[Collapse]);
+
     /// `place.current` stands, and is where the search goes on.
     fn stood(&mut self, place: &Place<'_>);
+
+    /// How far to step back where `added` cannot be put on `place.current`, nor ever, as long as all blocks of `blame` are
+    /// there.
+    fn blocked(&mut self, place: &Place<'_>, added: usize, blame: Vec<usize>) -> Back;
 
     /// Whether to step back from a sub-assembly on which `failed` cannot come next, or no candidate is left (None).
     fn back(&mut self, place: &Place<'_>, failed: Option<usize>) -> Option<Back>;

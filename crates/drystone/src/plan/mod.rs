@@ -5,10 +5,14 @@
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
 mod ahead;
+mod clear_path;
 mod collapse;
 mod dead_end;
 mod forces;
 mod graph;
+mod grips;
+mod hitting;
+mod holding;
 mod learned;
 #[cfg(test)]
 mod lemma_tests;
@@ -25,11 +29,14 @@ mod visited;
 mod whole;
 
 pub use ahead::Ahead;
+pub use clear_path::Blocked;
 pub use collapse::Collapse;
 pub use forces::{StructureForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
-pub use outcome::{Limits, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
-pub use planning::{plan, plan_assembly, plan_with};
+pub use outcome::{
+    ClearPath, Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord,
+};
+pub use planning::{plan, plan_assembly, plan_assembly_under, plan_under, plan_with, plan_with_under};
 pub use replay::{Recorder, Replay, Step, replay};
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};

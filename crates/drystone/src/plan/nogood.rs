@@ -28,6 +28,22 @@ pub(super) struct Reason {
     pub absent: Vec<usize>,
 }
 
+impl Reason {
+    /// All of these at once.
+    pub fn of_all(reasons: impl Iterator<Item = Self>) -> Self {
+        let mut all = Self::default();
+        for Self { blame, absent } in reasons {
+            all.blame.extend(blame);
+            all.absent.extend(absent);
+        }
+        for list in [&mut all.blame, &mut all.absent] {
+            list.sort_unstable();
+            list.dedup();
+        }
+        all
+    }
+}
+
 impl Nogood {
     /// `fallen` falls by `collapse` (Lemma 1).
     pub fn of_collapse(collapse: &Collapse, fallen: &BlockSet, touching: &Touching) -> Self {

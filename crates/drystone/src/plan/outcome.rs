@@ -1,6 +1,6 @@
 //! What a search is told, and what it answers.
 
-use super::stability::TestOutcome;
+use super::{clear_path::Blocked, stability::TestOutcome};
 use crate::check::Verdict;
 use std::{thread, time::Duration};
 
@@ -31,6 +31,27 @@ impl Limits {
     }
 }
 
+/// Most blocks that may be held at a time.
+pub const MOST_HANDS: usize = 8;
+
+/// What an order has to fulfil beside standing, and what helps it to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Conditions {
+    /// Most blocks that may be held at a time, up to [`MOST_HANDS`], beside the one that is put up or taken away. They are
+    /// only held if there is no order without.
+    pub hold: usize,
+    /// Every block has to leave along a straight line, without passing through those that remain.
+    pub clear_path: Option<ClearPath>,
+}
+
+/// How blocks may leave along a straight line.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ClearPath {
+    /// Directions to try first, of any length. The others are: against gravity, along the axes, and along and across the
+    /// block's contacts.
+    pub directions: Vec<[f64; 3]>,
+}
+
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -39,6 +60,11 @@ pub enum Outcome {
     Found,
     /// Every sub-assembly that can be reached was tested: no stable order exists.
     NoOrder,
+    /// With blocks held: none was found, but a structure was given up that stands under some hold. That hold could not be
+    /// had on the way to it, or there were too many to try.
+    Undecided,
+    /// Some blocks lock one another in, so that none of them can be the first to leave along a straight line.
+    Locked,
     /// The complete assembly does not stand, so there is nothing to take apart.
     WholeFalls,
     /// The test budget was spent.
@@ -55,6 +81,8 @@ impl Outcome {
         match self {
             Self::Found => "found",
             Self::NoOrder => "no_order",
+            Self::Undecided => "undecided",
+            Self::Locked => "locked",
             Self::WholeFalls => "whole_falls",
             Self::TestLimit => "test_limit",
             Self::TimeLimit => "time_limit",
@@ -123,6 +151,13 @@ pub struct Plan {
     /// The largest standing sub-assembly reached, in the order in which it was put up. If there is no order, nothing can be
     /// added to it, and unless a search with shortcuts was long (more than 30 dead ends) none is larger.
     pub reached: Vec<usize>,
+    /// For each structure on the way to `reached`, of one block, of two and so on: the blocks held.
+    pub held: Vec<Vec<usize>>,
+    /// For each block of `reached`, if it has to leave along a straight line: in which direction it does (unit vectors).
+    pub directions: Vec<[f64; 3]>,
+    /// With straight lines asked for and no order: blocks that cannot be put on `reached`, and what is in the way; if the
+    /// outcome is [`Outcome::Locked`], the blocks that lock one another in.
+    pub blocked: Vec<Blocked>,
     /// Blocks that could be put on it next, none of which leaves it standing (empty if found or cut short).
     pub falls_next: Vec<usize>,
     /// Every stability test.

@@ -1,17 +1,22 @@
 //! From a scene to a plan: the check of the complete assembly, and the search.
 
 use super::ahead::Ahead;
-use super::dead_end::dead_end;
+use super::clear_path::{Blocked, Paths};
+use super::dead_end::{dead_end, put_up};
+use super::grips::fewest_grips;
+use super::holding::Holding;
 use super::learned::{Bounds, Learned};
 use super::memory::Memory;
-use super::outcome::{Limits, Monitor, Outcome, Plan};
+use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, TestRecord};
 use super::search::{Clock, Search};
 use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test};
 use super::touching::Touching;
 use super::visited::Visited;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
 use crate::{
-    formulate::{Assemble, Assembly},
+    check::{Verdict, check_blocks},
+    error::SceneError,
+    formulate::{Assemble, Assembly, BlockSet},
     scene::SceneOf,
 };
 use std::{
@@ -29,8 +34,23 @@ pub fn plan<S: Assemble>(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
+    plan_under(scene, test, &Conditions::default(), limits, monitor)
+}
+
+/// [`plan`] under further conditions. Where blocks are held, the equilibrium of [`Test::Reuse`] decides, whichever test is
+/// named.
+///
+/// # Errors
+/// As [`plan`], and [`SceneError::BadParameter`] for more than [`MOST_HANDS`] blocks held and for directions that are none.
+pub fn plan_under<S: Assemble>(
+    scene: &SceneOf<S>,
+    test: Test,
+    conditions: &Conditions,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
     let start = Instant::now();
-    let mut plan = plan_assembly(&Assembly::new(scene)?, test, limits, monitor)?;
+    let mut plan = plan_assembly_under(scene, &Assembly::new(scene)?, test, conditions, limits, monitor)?;
     plan.total = start.elapsed();
     Ok(plan)
 }
@@ -45,6 +65,31 @@ pub fn plan_assembly(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
+    with_named(assembly, test, limits, |test| plan_with(assembly, test, limits, monitor))
+}
+
+/// [`plan_under`] of an assembly whose contacts are known; it is the scene's.
+///
+/// # Errors
+/// As [`plan_under`].
+pub fn plan_assembly_under<S: Assemble>(
+    scene: &SceneOf<S>,
+    assembly: &Assembly,
+    test: Test,
+    conditions: &Conditions,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    with_named(assembly, test, limits, |test| plan_with_under(scene, assembly, test, conditions, limits, monitor))
+}
+
+/// Plans with a test by name, whose setting up counts.
+fn with_named(
+    assembly: &Assembly,
+    test: Test,
+    limits: Limits,
+    plan: impl FnOnce(&mut dyn StabilityTest) -> Result<Plan, PlanError>,
+) -> Result<Plan, PlanError> {
     let setup = Instant::now();
     let mut test: Box<dyn StabilityTest + '_> = match test {
         Test::Lcp => from_scratch(assembly, limits.threads()),
@@ -52,7 +97,7 @@ pub fn plan_assembly(
         Test::ReuseDantzig => Box::new(ReuseDantzig::new(assembly)),
     };
     let setup = setup.elapsed();
-    let mut plan = plan_with(assembly, test.as_mut(), limits, monitor)?;
+    let mut plan = plan(test.as_mut())?;
     plan.setup = setup;
     plan.total += setup;
     Ok(plan)
@@ -75,19 +120,144 @@ pub fn plan_with(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
+    search_under(assembly, test, 0, None, limits, monitor)
+}
+
+/// [`plan_under`] with any stability test; `assembly` is the scene's.
+///
+/// # Errors
+/// As [`plan_under`].
+pub fn plan_with_under<S: Assemble>(
+    scene: &SceneOf<S>,
+    assembly: &Assembly,
+    test: &mut dyn StabilityTest,
+    conditions: &Conditions,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    if conditions.hold > MOST_HANDS {
+        return Err(SceneError::BadParameter {
+            scene: "plan".into(),
+            parameter: "hold".into(),
+            found: conditions.hold.to_string(),
+            expected: format!("at most {MOST_HANDS} blocks held at a time"),
+        }
+        .into());
+    }
+    let clear = conditions.clear_path.as_ref();
+    let paths = clear.map(|clear| Paths::new(scene, assembly, &clear.directions)).transpose()?;
+    search_under(assembly, test, conditions.hold, paths.as_ref(), limits, monitor)
+}
+
+/// What a search has found, blocks by their numbers among the movable ones.
+struct Found {
+    outcome: Outcome,
+    reached: Vec<usize>,
+    held: Vec<Vec<usize>>,
+    falls_next: Vec<usize>,
+    records: Vec<TestRecord>,
+    shortcuts: usize,
+    whole: Option<Verdict>,
+    whole_time: Duration,
+}
+
+fn search_under(
+    assembly: &Assembly,
+    test: &mut dyn StabilityTest,
+    hands: usize,
+    paths: Option<&Paths<'_>>,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
     let start = Instant::now();
     let whole_falls = AtomicBool::new(false);
     let mut clock = Clock { limits, start, monitor, whole_falls: &whole_falls };
     let touching = Touching::new(assembly);
-    let mut memory: Box<dyn Memory + '_> = match limits.shortcuts && test.explains() {
-        true => Box::new(Learned::new(&touching, Bounds::default())),
-        false => Box::new(Visited::default()),
+    let locked = paths.map(Paths::locked).filter(|locked| !locked.is_empty());
+    let mut found = match &locked {
+        Some(_) => check_locked(assembly),
+        None => search_unheld(assembly, &touching, paths, test, &mut clock)?,
     };
-    let mut search = Search::new(&touching, memory.as_mut());
+    if found.outcome == Outcome::NoOrder && hands > 0 {
+        search_with_hands(assembly, &touching, paths, hands, &mut clock, &mut found)?;
+    }
+    let (directions, blocked) = paths.map_or_else(Default::default, |paths| ways(paths, &found, locked));
+    let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };
+    let reached = bodies(&found.reached);
+    Ok(Plan {
+        outcome: found.outcome,
+        order: if found.outcome == Outcome::Found { reached.iter().rev().copied().collect() } else { Vec::new() },
+        reached,
+        directions,
+        blocked,
+        held: found.held.iter().map(|held| bodies(held)).collect(),
+        falls_next: bodies(&found.falls_next),
+        records: found.records,
+        shortcuts: found.shortcuts,
+        setup: Duration::ZERO,
+        total: start.elapsed(),
+        whole: found.whole,
+        whole_time: found.whole_time,
+    })
+}
+
+/// In which direction each block reached leaves, and what is in the way of those that cannot come next.
+fn ways(paths: &Paths<'_>, found: &Found, locked: Option<BlockSet>) -> (Vec<[f64; 3]>, Vec<Blocked>) {
+    let blocks = paths.blocks();
+    let mut there = BlockSet::empty(blocks);
+    let mut directions = Vec::new();
+    for &block in &found.reached {
+        directions.extend(paths.way_out(block, &there));
+        there.insert(block);
+    }
+    let blocked = match (found.outcome, locked) {
+        (Outcome::Locked, Some(locked)) => paths.blocked(locked.iter(), &locked),
+        (Outcome::NoOrder | Outcome::Undecided, _) => {
+            paths.blocked((0..blocks).filter(|&block| !there.contains(block)), &there)
+        }
+        _ => Vec::new(),
+    };
+    (directions, blocked)
+}
+
+/// What there is to say of an assembly with blocks that lock one another in.
+fn check_locked(assembly: &Assembly) -> Found {
+    let begin = Instant::now();
+    let whole = check_blocks(assembly, &BlockSet::full(assembly.blocks()));
+    Found {
+        outcome: if whole.stable { Outcome::Locked } else { Outcome::WholeFalls },
+        reached: Vec::new(),
+        held: Vec::new(),
+        falls_next: Vec::new(),
+        records: Vec::new(),
+        shortcuts: 0,
+        whole: Some(whole),
+        whole_time: begin.elapsed(),
+    }
+}
+
+fn memory_for<'a>(touching: &'a Touching, limits: Limits, test: &dyn StabilityTest) -> Box<dyn Memory + 'a> {
+    match limits.shortcuts && test.explains() {
+        true => Box::new(Learned::new(touching, Bounds::default())),
+        false => Box::new(Visited::default()),
+    }
+}
+
+/// The search with nothing held, and the check of the whole.
+fn search_unheld(
+    assembly: &Assembly,
+    touching: &Touching,
+    paths: Option<&Paths<'_>>,
+    test: &mut dyn StabilityTest,
+    clock: &mut Clock<'_>,
+) -> Result<Found, PlanError> {
+    let limits = clock.limits;
+    let mut memory = memory_for(touching, limits, test);
+    let mut search = Search::new(touching, paths, memory.as_mut());
     let Checked { whole, time: whole_time, searched } = if check_beside(limits, assembly.blocks()) {
-        check_beside_search(assembly, &mut search, test, &mut clock)
+        check_beside_search(assembly, &mut search, test, clock)
     } else {
-        check_before_search(assembly, &mut search, test, &mut clock)
+        check_before_search(assembly, &mut search, test, clock)
     };
     let Search { best: mut reached, mut records, .. } = search;
     let outcome = match (&whole, searched) {
@@ -102,20 +272,49 @@ pub fn plan_with(
             (reached, records, shortcuts) = (Vec::new(), Vec::new(), 0);
             Vec::new()
         }
-        Outcome::NoOrder => dead_end(assembly, &touching, &mut reached)?,
+        Outcome::NoOrder => dead_end(&mut Reuse::new(assembly), touching, paths, &mut reached)?,
         _ => Vec::new(),
     };
-    let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };
-    Ok(Plan {
-        outcome,
-        order: if outcome == Outcome::Found { bodies(&reached).into_iter().rev().collect() } else { Vec::new() },
-        reached: bodies(&reached),
-        falls_next: bodies(&falls_next),
-        records,
-        shortcuts,
-        setup: Duration::ZERO,
-        total: start.elapsed(),
-        whole,
-        whole_time,
-    })
+    let held = vec![Vec::new(); reached.len()];
+    Ok(Found { outcome, reached, held, falls_next, records, shortcuts, whole, whole_time })
+}
+
+/// The search with blocks held, after one that found that there is no order without.
+fn search_with_hands(
+    assembly: &Assembly,
+    touching: &Touching,
+    paths: Option<&Paths<'_>>,
+    hands: usize,
+    clock: &mut Clock<'_>,
+    found: &mut Found,
+) -> Result<(), PlanError> {
+    let mut test = Holding::new(assembly, hands);
+    let mut memory = memory_for(touching, clock.limits, &test);
+    let mut search = Search::new(touching, paths, memory.as_mut());
+    search.records = std::mem::take(&mut found.records);
+    let ended = search.run(&mut test, clock);
+    let Search { best: reached, records, .. } = search;
+    (found.reached, found.records) = (reached, records);
+    found.shortcuts += memory.shortcuts();
+    found.outcome = match ended {
+        Err(PlanError::Interrupted) => Outcome::Interrupted,
+        Ok(Outcome::NoOrder) if test.undecided() > 0 => Outcome::Undecided,
+        ended => ended?,
+    };
+    found.falls_next = match found.outcome {
+        Outcome::Found => Vec::new(),
+        Outcome::NoOrder | Outcome::Undecided => {
+            test = Holding::new(assembly, hands);
+            dead_end(&mut test, touching, paths, &mut found.reached)?
+        }
+        _ => {
+            test = Holding::new(assembly, hands);
+            put_up(&mut test, touching, &found.reached)?;
+            Vec::new()
+        }
+    };
+    found.held = fewest_grips(test.way(), hands);
+    // The complete assembly stands with nothing held, and was not put up.
+    found.held.resize(found.reached.len(), Vec::new());
+    Ok(())
 }

@@ -1,5 +1,6 @@
 //! Depth-first search of the disassembly graph.
 
+use super::clear_path::Paths;
 use super::memory::{Back, Memory, Place};
 use super::outcome::{Limits, Monitor, Outcome, Progress, Stage, TestRecord};
 use super::stability::{PlanError, StabilityTest};
@@ -39,6 +40,8 @@ impl Clock<'_> {
 pub(super) struct Search<'a> {
     touching: &'a Touching,
     memory: &'a mut dyn Memory,
+    /// How blocks leave, if that has to be along a straight line.
+    paths: Option<&'a Paths<'a>>,
     current: BlockSet,
     placed: Vec<usize>,
     /// Of each placed block, in `placed`.
@@ -50,10 +53,11 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub fn new(touching: &'a Touching, memory: &'a mut dyn Memory) -> Self {
+    pub fn new(touching: &'a Touching, paths: Option<&'a Paths<'a>>, memory: &'a mut dyn Memory) -> Self {
         Self {
             touching,
             memory,
+            paths,
             current: BlockSet::empty(touching.blocks()),
             placed: Vec::new(),
             position: vec![0; touching.blocks()],
@@ -73,6 +77,12 @@ impl<'a> Search<'a> {
                 }
                 return Ok(Outcome::NoOrder);
             };
+            if let Some(blame) = self.paths.and_then(|paths| paths.blame(added, &self.current, &self.position)) {
+                if !self.step_back_from_blocked(added, blame, test) {
+                    return Ok(Outcome::NoOrder);
+                }
+                continue;
+            }
             self.current.insert(added);
             let last = self.placed.len() + 1 == blocks; // the complete assembly, checked first
             let known = !last && self.knows(added);
@@ -125,8 +135,10 @@ impl<'a> Search<'a> {
         if outcome.stands {
             test.descend();
             self.memory.stood(&place);
-        } else {
+        } else if test.collapses_however_held().is_empty() {
             self.memory.fell(&place, added, test.collapse());
+        } else {
+            self.memory.fell_however_held(&place, added, test.collapses_however_held());
         }
         Ok(outcome.stands)
     }
@@ -166,12 +178,26 @@ impl<'a> Search<'a> {
                 Some(Back::NoOrder) => return false,
                 Some(Back::To(keep)) => keep,
             };
-            failed = Some(self.placed[keep]);
-            for block in self.placed.drain(keep..) {
-                self.current.remove(block);
-                test.backtrack();
-            }
-            self.tried.truncate(keep + 1);
+            failed = Some(self.retreat(keep, test));
         }
+    }
+
+    /// Steps back to where some of the blocks that are in the way of `added` are gone.
+    fn step_back_from_blocked(&mut self, added: usize, blame: Vec<usize>, test: &mut dyn StabilityTest) -> bool {
+        let place = Place { placed: &self.placed, position: &self.position, current: &self.current };
+        let Back::To(keep) = self.memory.blocked(&place, added, blame) else { return false };
+        let failed = self.retreat(keep, test);
+        self.step_back(Some(failed), test)
+    }
+
+    /// Takes all but the first blocks off again, and says which of them was the first to come.
+    fn retreat(&mut self, keep: usize, test: &mut dyn StabilityTest) -> usize {
+        let first = self.placed[keep];
+        for block in self.placed.drain(keep..) {
+            self.current.remove(block);
+            test.backtrack();
+        }
+        self.tried.truncate(keep + 1);
+        first
     }
 }

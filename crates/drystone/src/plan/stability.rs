@@ -66,6 +66,11 @@ pub trait StabilityTest {
         None
     }
 
+    /// Where blocks may be held: collapse motions of the sub-assembly just tested, so many that no hold stops all of them.
+    fn collapses_however_held(&self) -> &[Collapse] {
+        &[]
+    }
+
     /// The sub-assembly just tested, which stands, becomes the current one.
     fn descend(&mut self) {}
 
@@ -185,6 +190,20 @@ impl Reuse {
     }
 }
 
+/// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y. `loads` has the entries of F; what comes
+/// after them are the rows of hands.
+pub(super) fn certified_collapse(solver: &ConeSolver, rows: &BlockRows, loads: &[f64]) -> Collapse {
+    let mut moving: Vec<(usize, f64)> = Vec::new();
+    for (row, y) in solver.certificate().into_iter().filter(|&(row, _)| row < loads.len()) {
+        let (block, work) = (rows.block(row), -y * loads[row]);
+        match moving.last_mut().filter(|last| last.0 == block) {
+            Some(last) => last.1 += work,
+            None => moving.push((block, work)),
+        }
+    }
+    Collapse::new(moving)
+}
+
 impl StabilityTest for Reuse {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         if !self.at_current
@@ -212,18 +231,8 @@ impl StabilityTest for Reuse {
         true
     }
 
-    /// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y.
     fn collapse(&self) -> Option<Collapse> {
-        let mut moving: Vec<(usize, f64)> = Vec::new();
-        for (row, y) in self.solver.certificate() {
-            let block = self.rows.block(row);
-            let work = -y * self.loads[row];
-            match moving.last_mut().filter(|last| last.0 == block) {
-                Some(last) => last.1 += work,
-                None => moving.push((block, work)),
-            }
-        }
-        Some(Collapse::new(moving))
+        Some(certified_collapse(&self.solver, &self.rows, &self.loads))
     }
 
     fn descend(&mut self) {

@@ -54,8 +54,16 @@ impl Memory for Visited {
         self.keep(place.current);
     }
 
+    fn fell_however_held(&mut self, place: &Place<'_>, _added: usize, _collapses: &[Collapse]) {
+        self.keep(place.current);
+    }
+
     fn stood(&mut self, place: &Place<'_>) {
         self.keep(place.current);
+    }
+
+    fn blocked(&mut self, place: &Place<'_>, _added: usize, blame: Vec<usize>) -> Back {
+        Back::before_last_of(&blame, place)
     }
 
     /// One block at a time, once every candidate was tried.

@@ -1,0 +1,189 @@
+//! Whether one convex piece can be moved away along a straight line, past another.
+//!
+//! A moves along the direction d and B stays. A never enters B if and only if a plane parts them that A does not move
+//! towards:
+//!
+//! ```text
+//! min_b n'b - max_a n'a >= 0    and    n'd <= 0    for some n
+//! ```
+//!
+//! (the half-line t d, t >= 0, then does not meet the interior of the difference B - A; both are convex). Such an n is found
+//! among few: if some n is square to d, the shadows along d are apart, and a normal of an edge of one of them parts them; if
+//! all have n'd < 0, so has the normal of a face of B - A, which comes from a face of A, a face of B or an edge of each.
+//!
+//! Which piece is in the way of which, for every direction, is the non-directional blocking graph of R. H. Wilson and
+//! J.-F. Rit, "Maintaining geometric dependencies in an assembly planner", ICRA 1990.
+
+use super::{PoseInSpace, Solid};
+
+/// How far a direction may be from lying in a face, radians, to slide along it: far above the rounding of normals, and less
+/// than a contact tolerance on the way of a thousand blocks.
+const SLIDING: f64 = 1e-9;
+
+/// A cross product this short, of unit vectors, is that of parallel ones.
+const PARALLEL: f64 = 1e-9;
+
+/// A convex piece. One in the plane is a column without end, whose edges are upright.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// In the world, metres.
+    vertices: Vec<[f64; 3]>,
+    /// Outward unit normals of the faces.
+    normals: Vec<[f64; 3]>,
+    /// Unit directions of the edges.
+    edges: Vec<[f64; 3]>,
+}
+
+impl Piece {
+    /// A convex polygon, corners counter-clockwise.
+    pub fn planar(corners: &[[f64; 2]]) -> Self {
+        let next = corners.iter().cycle().skip(1);
+        let normals = corners.iter().zip(next).filter_map(|([ax, ay], [bx, by])| unit([by - ay, ax - bx, 0.0]));
+        Self {
+            vertices: corners.iter().map(|&[x, y]| [x, y, 0.0]).collect(),
+            normals: normals.collect(),
+            edges: vec![[0.0, 0.0, 1.0]],
+        }
+    }
+
+    /// The convex pieces of a solid.
+    pub fn of_solid(solid: &Solid, pose: &PoseInSpace) -> Vec<Self> {
+        let pieces = solid.pieces().iter().map(|piece| {
+            let edge = |k: usize| {
+                let [a, b] = piece.edges()[k].ends;
+                unit(pose.rotate(piece.vertices()[b] - piece.vertices()[a]).to_array())
+            };
+            Self {
+                vertices: piece.vertices().iter().map(|&v| pose.transform(v).to_array()).collect(),
+                normals: piece.normals().iter().map(|&n| pose.rotate(n).to_array()).collect(),
+                edges: (0..piece.edges().len()).filter_map(edge).collect(),
+            }
+        });
+        pieces.collect()
+    }
+
+    /// Whether this piece, moved along a unit direction as far as one likes, would enter another that stays. They may touch
+    /// on the way, and be as deep in each other as the tolerance, metres.
+    pub fn is_stopped_by(&self, other: &Self, direction: [f64; 3], tolerance: f64) -> bool {
+        let parts = |n: [f64; 3]| dot(n, direction) <= SLIDING && self.gap(other, n) >= -tolerance;
+        let back = direction.map(|d| -d);
+        let sideways = self.edges.iter().chain(&other.edges).filter_map(|&edge| unit(cross(edge, direction)));
+        let edges = self.edges.iter().flat_map(|&a| other.edges.iter().filter_map(move |&b| unit(cross(a, b))));
+        let both = sideways.chain(edges).flat_map(|n| [n, n.map(|x| -x)]);
+        let faces = self.normals.iter().copied().chain(other.normals.iter().map(|n| n.map(|x| -x)));
+        ![back].into_iter().chain(both).chain(faces).any(parts)
+    }
+
+    /// How far the other piece is ahead along a unit vector, metres.
+    fn gap(&self, other: &Self, n: [f64; 3]) -> f64 {
+        let along = |vertices: &[[f64; 3]], start, pick: fn(f64, f64) -> f64| {
+            vertices.iter().map(|&vertex| dot(n, vertex)).fold(start, pick)
+        };
+        along(&other.vertices, f64::INFINITY, f64::min) - along(&self.vertices, f64::NEG_INFINITY, f64::max)
+    }
+}
+
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The unit vector along another one, if that is not all but zero.
+pub(crate) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(a, a).sqrt();
+    (length > PARALLEL).then(|| a.map(|x| x / length))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Piece, cross, dot, unit};
+
+    fn rectangle(x: [f64; 2], y: [f64; 2]) -> Piece {
+        Piece::planar(&[[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]])
+    }
+
+    fn brick(low: [f64; 3], high: [f64; 3]) -> Piece {
+        let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let corner = |mask: usize| [0, 1, 2].map(|k| if mask >> k & 1 == 1 { high[k] } else { low[k] });
+        let normals = axes.iter().flat_map(|&n| [n, n.map(|x: f64| -x)]).collect();
+        Piece { vertices: (0..8).map(corner).collect(), normals, edges: axes.to_vec() }
+    }
+
+    #[test]
+    fn a_square_slides_along_what_it_touches_and_not_through_it() {
+        let (block, right) = (rectangle([0.0, 1.0], [0.0, 1.0]), rectangle([1.0, 2.0], [0.0, 1.0]));
+        for (direction, stopped) in
+            [([1.0, 0.0, 0.0], true), ([-1.0, 0.0, 0.0], false), ([0.0, 1.0, 0.0], false), ([0.6, 0.8, 0.0], true)]
+        {
+            assert_eq!(block.is_stopped_by(&right, direction, 1e-6), stopped, "{direction:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_far_ahead_stops_and_what_is_behind_does_not() {
+        let block = rectangle([0.0, 1.0], [0.0, 1.0]);
+        let (ahead, behind) = (rectangle([0.9, 3.0], [50.0, 51.0]), rectangle([0.2, 0.4], [-9.0, -3.0]));
+        let up = [0.0, 1.0, 0.0];
+        assert!(block.is_stopped_by(&ahead, up, 1e-6) && !block.is_stopped_by(&behind, up, 1e-6));
+        // A corner that is behind, not opposite any face square to the way.
+        let diamond = Piece::planar(&[[0.5, -2.0], [1.0, -1.5], [0.5, -1.0], [0.0, -1.5]]);
+        assert!(!block.is_stopped_by(&diamond, [0.3_f64.sin(), 0.3_f64.cos(), 0.0], 1e-6));
+    }
+
+    #[test]
+    fn the_same_as_many_small_steps_find() {
+        use super::super::Vector;
+        use parry2d_f64::{math::Pose, query::distance, shape::ConvexPolygon};
+        use rand::{Rng, SeedableRng};
+
+        let mut random = rand_pcg::Pcg64::seed_from_u64(5);
+        let mut polygon = |x: f64| {
+            let corners = random.random_range(3..7);
+            let mut angles: Vec<f64> = (0..corners).map(|_| random.random_range(0.0..std::f64::consts::TAU)).collect();
+            angles.sort_by(f64::total_cmp);
+            let centre = [x + random.random_range(-0.5..0.5), random.random_range(-1.5..1.5)];
+            let corner = |angle: &f64| [centre[0] + angle.cos(), centre[1] + angle.sin()];
+            (angles.iter().map(corner).collect::<Vec<_>>(), random.random_range(0.0..std::f64::consts::TAU))
+        };
+        let hull = |corners: &[[f64; 2]]| {
+            ConvexPolygon::from_convex_polyline(corners.iter().map(|&corner| Vector::from_array(corner)).collect())
+        };
+        let mut seen = [0, 0];
+        for _ in 0..2000 {
+            let ((a, angle), (b, _)) = (polygon(0.0), polygon(1.2));
+            let (Some(shape_a), Some(shape_b)) = (hull(&a), hull(&b)) else { continue };
+            let meets = |t: f64| {
+                let moved = Pose::translation(t * angle.cos(), t * angle.sin());
+                distance(&moved, &shape_a, &Pose::IDENTITY, &shape_b).unwrap().distance <= 0.0
+            };
+            if meets(0.0) {
+                continue;
+            }
+            let direction = [angle.cos(), angle.sin(), 0.0];
+            let (a, b) = (Piece::planar(&a), Piece::planar(&b));
+            let met = (1..1000).any(|step| meets(0.005 * f64::from(step)));
+            // What is only grazed falls between the steps.
+            let (surely, perhaps) = (a.is_stopped_by(&b, direction, 0.03), a.is_stopped_by(&b, direction, 0.0));
+            assert!(!surely || met, "{a:?} {b:?} {direction:?}");
+            assert!(!met || perhaps, "{a:?} {b:?} {direction:?}");
+            seen[usize::from(met)] += 1;
+        }
+        assert!(seen[0] > 200 && seen[1] > 100, "{seen:?}");
+    }
+
+    #[test]
+    fn in_space_an_edge_past_an_edge_is_seen() {
+        // Two long bricks, crossed and one above the other, both turned by 45 degrees about their length.
+        let along_x = brick([-5.0, -0.5, -0.5], [5.0, 0.5, 0.5]);
+        let along_y = brick([-0.5, -5.0, 1.0], [0.5, 5.0, 2.0]);
+        assert!(along_x.is_stopped_by(&along_y, [0.0, 0.0, 1.0], 1e-6));
+        assert!(!along_x.is_stopped_by(&along_y, [1.0, 0.0, 0.0], 1e-6));
+        assert!(!along_x.is_stopped_by(&along_y, [0.0, 0.0, -1.0], 1e-6));
+        let tilted = unit([1.0, 0.0, 0.05]).unwrap();
+        assert!(!brick([-5.0, 6.0, -0.5], [5.0, 7.0, 0.5]).is_stopped_by(&along_y, tilted, 1e-6));
+        assert!(dot(cross(tilted, [0.0, 1.0, 0.0]), tilted).abs() < 1e-15);
+    }
+}

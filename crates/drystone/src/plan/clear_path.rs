@@ -1,0 +1,203 @@
+//! Blocks that can leave along a straight line, past all that remain.
+//!
+//! Other blocks are in the way of a block, or not, whether anything stands or not; so this is looked up for each block and
+//! direction once. The fewer blocks there are, the more can leave. Two things follow.
+//!
+//! *Locked blocks.* Take blocks away that can leave, whatever falls, until none can. What remains is locked: in every
+//! order one of these blocks would have to be the first to go, and it cannot.
+//!
+//! *The trap.* If blocks Q that are there leave a block X no way in, every structure with all of Q and without X is lost, for
+//! what grows from it has all of Q as well.
+
+use crate::contact::tolerance_of;
+use crate::error::SceneError;
+use crate::formulate::{Assemble, Assembly, BlockSet};
+use crate::geometry::{Piece, cross, dot, unit};
+use crate::scene::SceneOf;
+use std::cell::OnceCell;
+
+/// Two directions whose cosine is this close to one are the same: the angle is 1e-6.
+const SAME: f64 = 1e-12;
+
+/// Why a block cannot leave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Blocked {
+    /// The body that cannot leave, an index of the scene.
+    pub body: usize,
+    /// For each direction looked at, which bodies are in the way.
+    pub ways: Vec<([f64; 3], Vec<usize>)>,
+}
+
+/// What is in the way of a block in one direction, when everything is there.
+#[derive(Debug, Clone)]
+struct InTheWay {
+    blocks: BlockSet,
+    /// Fixed bodies, by their index in the scene.
+    fixed: Vec<usize>,
+}
+
+/// For each block the directions in which it may leave, and what is in the way.
+#[derive(Debug)]
+pub(super) struct Paths<'a> {
+    assembly: &'a Assembly,
+    /// Of every body, with the contact tolerance that it allows, metres.
+    pieces: Vec<Vec<Piece>>,
+    tolerances: Vec<f64>,
+    directions: Vec<Vec<[f64; 3]>>,
+    /// For each block and direction, once it is asked for.
+    known: Vec<Vec<OnceCell<InTheWay>>>,
+}
+
+impl<'a> Paths<'a> {
+    /// Takes a scene's assembly, and directions to try beside those along the axes and the block's contacts.
+    ///
+    /// # Errors
+    /// [`SceneError::BadParameter`] for a direction that is zero or not finite.
+    pub fn new<S: Assemble>(
+        scene: &SceneOf<S>,
+        assembly: &'a Assembly,
+        directions: &[[f64; 3]],
+    ) -> Result<Self, SceneError> {
+        let mut given = Vec::new();
+        for direction in directions {
+            let size = direction.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
+            let along = unit(direction.map(|x| x / size)).filter(|_| size.is_finite());
+            given.push(along.ok_or_else(|| SceneError::BadParameter {
+                scene: "plan".into(),
+                parameter: "directions".into(),
+                found: format!("{direction:?}"),
+                expected: "finite vectors that are not zero".into(),
+            })?);
+        }
+        let directions: Vec<Vec<[f64; 3]>> = candidates(assembly, &given);
+        Ok(Self {
+            assembly,
+            pieces: scene.bodies().iter().map(S::pieces).collect(),
+            tolerances: scene.bodies().iter().map(|body| tolerance_of(scene, body)).collect(),
+            known: directions.iter().map(|list| vec![OnceCell::new(); list.len()]).collect(),
+            directions,
+        })
+    }
+
+    /// Number of movable blocks.
+    pub fn blocks(&self) -> usize {
+        self.assembly.blocks()
+    }
+
+    fn in_the_way(&self, block: usize, way: usize) -> &InTheWay {
+        let assembly = self.assembly;
+        self.known[block][way].get_or_init(|| {
+            let (body, direction) = (assembly.body_index(block), self.directions[block][way]);
+            let stops = |&other: &usize| {
+                let tolerance = self.tolerances[body].min(self.tolerances[other]);
+                let past =
+                    |piece: &Piece| self.pieces[other].iter().any(|b| piece.is_stopped_by(b, direction, tolerance));
+                other != body && self.pieces[body].iter().any(past)
+            };
+            let mut blocks = BlockSet::empty(assembly.blocks());
+            (0..assembly.blocks()).filter(|&b| stops(&assembly.body_index(b))).for_each(|b| blocks.insert(b));
+            let fixed = (0..self.pieces.len()).filter(|&other| assembly.bodies()[other].fixed).filter(stops).collect();
+            InTheWay { blocks, fixed }
+        })
+    }
+
+    /// The first direction in which a block can leave the other blocks of a set.
+    pub fn way_out(&self, block: usize, set: &BlockSet) -> Option<[f64; 3]> {
+        let free = (0..self.directions[block].len()).find(|&way| {
+            let in_the_way = self.in_the_way(block, way);
+            in_the_way.fixed.is_empty() && !in_the_way.blocks.iter().any(|other| set.contains(other))
+        });
+        free.map(|way| self.directions[block][way])
+    }
+
+    /// Blocks of a set that together leave a block no way out, those put up early if there is a choice; None if it has one.
+    pub fn blame(&self, block: usize, set: &BlockSet, position: &[usize]) -> Option<Vec<usize>> {
+        if self.way_out(block, set).is_some() {
+            return None;
+        }
+        let mut blame = Vec::new();
+        for way in 0..self.directions[block].len() {
+            let in_the_way = self.in_the_way(block, way);
+            if !in_the_way.fixed.is_empty() || in_the_way.blocks.iter().any(|other| blame.contains(&other)) {
+                continue;
+            }
+            let there = in_the_way.blocks.iter().filter(|&other| set.contains(other));
+            blame.extend(there.min_by_key(|&other| position[other]));
+        }
+        Some(blame)
+    }
+
+    /// What is in the way of those of some blocks that cannot leave a set.
+    pub fn blocked(&self, blocks: impl Iterator<Item = usize>, set: &BlockSet) -> Vec<Blocked> {
+        let stuck: Vec<usize> = blocks.filter(|&block| self.way_out(block, set).is_none()).collect();
+        stuck.into_iter().map(|block| self.why(block, set)).collect()
+    }
+
+    fn why(&self, block: usize, set: &BlockSet) -> Blocked {
+        let (assembly, directions) = (self.assembly, self.directions[block].clone());
+        let ways = directions.into_iter().enumerate().map(|(way, direction)| {
+            let in_the_way = self.in_the_way(block, way);
+            let there = in_the_way.blocks.iter().filter(|&other| set.contains(other));
+            let mut bodies: Vec<usize> = there.map(|other| assembly.body_index(other)).collect();
+            bodies.extend(&in_the_way.fixed);
+            bodies.sort_unstable();
+            (direction, bodies)
+        });
+        Blocked { body: assembly.body_index(block), ways: ways.collect() }
+    }
+
+    /// The blocks that lock one another in.
+    pub fn locked(&self) -> BlockSet {
+        let mut left = BlockSet::full(self.assembly.blocks());
+        let downward: Vec<usize> = self.assembly.upward().into_iter().rev().collect();
+        loop {
+            let before = left.len();
+            for &block in &downward {
+                if left.contains(block) && self.way_out(block, &left).is_some() {
+                    left.remove(block);
+                }
+            }
+            if left.len() == before {
+                return left;
+            }
+        }
+    }
+}
+
+/// For each block the directions to try: those given, against gravity, along the axes, along and across its contacts.
+fn candidates(assembly: &Assembly, given: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
+    let up = unit(assembly.gravity().map(|g| -g));
+    let axes: &[[f64; 3]] = match assembly.in_plane() {
+        true => &[[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+        false => &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+    };
+    let both = |way: [f64; 3]| [way, way.map(|x| -x)];
+    let of_all = given.iter().copied().chain(up).chain(axes.iter().copied().flat_map(both));
+    let of_all = of_all.fold(Vec::new(), with_new);
+    let mut directions = vec![of_all; assembly.blocks()];
+    for generator in assembly.generators() {
+        let normal = assembly.contacts()[generator.contact].normal;
+        let ways = across(assembly, normal).into_iter().chain([normal]).flat_map(both);
+        for wrench in &generator.wrenches {
+            let list = std::mem::take(&mut directions[wrench.block]);
+            directions[wrench.block] = ways.clone().fold(list, with_new);
+        }
+    }
+    directions
+}
+
+/// Unit vectors square to a contact's normal: in the plane one, in space one that is level and one that is steepest.
+fn across(assembly: &Assembly, normal: [f64; 3]) -> Vec<[f64; 3]> {
+    if assembly.in_plane() {
+        return vec![[-normal[1], normal[0], 0.0]];
+    }
+    let level = unit(cross(normal, assembly.gravity())).or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])));
+    level.into_iter().flat_map(|level| [level, cross(normal, level)]).collect()
+}
+
+fn with_new(mut list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
+    if !list.iter().any(|&known| dot(known, direction) > 1.0 - SAME) {
+        list.push(direction);
+    }
+    list
+}

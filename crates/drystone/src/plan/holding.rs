@@ -1,0 +1,191 @@
+//! A stability test that may hold blocks.
+//!
+//! A sub-assembly passes if it stands with at most `hands` of its blocks held, and if that hold can follow the one before.
+//! Which holds are worth a look follows from the collapses (`hitting.rs`): all *minimal* ones are found, for whatever holds
+//! more stands as well. If none does, the collapses found on the way prove it, and carry over as a nogood: by Lemma 1 each
+//! holds for other sub-assemblies, and no hold of so many hands stops all of them.
+//!
+//! *How hands move.* One more hand carries the block that is put up or taken away, and may go on holding it. Apart from it
+//! at most `hands` blocks are held at any moment, and a new block is held before an old one is let go. So H' can follow H
+//! when X is put up if `|H + (H' - X)| <= hands`; from any hold on, so can a part of it.
+
+use super::collapse::Collapse;
+use super::hitting::next_hitting_set;
+use super::stability::{PlanError, StabilityTest, TestOutcome, certified_collapse};
+use crate::formulate::{Assembly, BlockRows, BlockSet};
+use drystone_lcp::cone::{ConeSolver, Mark, Membership};
+
+/// Most holds tried on one sub-assembly. One hand never comes near; with more the number of sets could explode.
+const MOST_TRIED: usize = 2000;
+
+/// A sub-assembly on the way.
+#[derive(Debug)]
+struct Level {
+    /// The solver, with nothing held, even if that falls.
+    unheld: Mark,
+    /// The block put up last.
+    added: usize,
+    /// The minimal holds that can be had on this way; one that holds nothing is alone.
+    holds: Vec<Vec<usize>>,
+}
+
+/// Equilibrium as in [`Reuse`](super::Reuse), with hands.
+#[derive(Debug)]
+pub(super) struct Holding<'a> {
+    assembly: &'a Assembly,
+    solver: ConeSolver,
+    rows: BlockRows,
+    loads: Vec<f64>,
+    hands: usize,
+    /// The bare supports, the current sub-assembly's ancestors, and itself.
+    path: Vec<Level>,
+    at_current: bool,
+    /// Of the sub-assembly tested last.
+    added: usize,
+    holds: Vec<Vec<usize>>,
+    collapses: Vec<Collapse>,
+    undecided: usize,
+}
+
+impl<'a> Holding<'a> {
+    /// Takes the generators of the complete assembly; the current sub-assembly is empty.
+    pub fn new(assembly: &'a Assembly, hands: usize) -> Self {
+        let mut solver = assembly.equilibrium_with_hands();
+        let bare = Level { unheld: solver.mark(), added: 0, holds: vec![Vec::new()] };
+        Self {
+            assembly,
+            solver,
+            rows: assembly.equilibrium_rows(),
+            loads: (0..assembly.blocks()).flat_map(|block| assembly.applied(block)).copied().collect(),
+            hands,
+            path: vec![bare],
+            at_current: true,
+            added: 0,
+            holds: Vec::new(),
+            collapses: Vec::new(),
+            undecided: 0,
+        }
+    }
+
+    /// Sub-assemblies given up without a proof that they fall however they are held: they stand under holds that could not
+    /// be had on the way, or there were too many to try.
+    pub fn undecided(&self) -> usize {
+        self.undecided
+    }
+
+    /// Of every sub-assembly on the way the block put up last and the minimal holds.
+    pub fn way(&self) -> impl Iterator<Item = (usize, &[Vec<usize>])> {
+        self.path.iter().skip(1).map(|level| (level.added, level.holds.as_slice()))
+    }
+
+    /// Whether what is there stands with these blocks held.
+    fn stands(&mut self, held: &[usize], blocks: &BlockSet) -> Result<bool, PlanError> {
+        let rows: Vec<usize> = held.iter().map(|&block| self.assembly.hand_row(block)).collect();
+        self.solver.add_rows(&rows);
+        match self.solver.decide() {
+            Membership::Inside => Ok(true),
+            Membership::Outside => Ok(false),
+            trouble => {
+                let reason = format!("{trouble:?} (residual {:.1e})", self.solver.residual());
+                Err(PlanError::NoAnswer { blocks: blocks.len(), reason })
+            }
+        }
+    }
+
+    /// Finds the minimal holds of a sub-assembly that falls with nothing held.
+    fn find_holds(&mut self, blocks: &BlockSet) -> Result<(), PlanError> {
+        let unheld = self.solver.mark();
+        let preference: Vec<usize> = self.newest_first().collect();
+        self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
+        let mut family = vec![self.moving(&[])];
+        let mut tried = 0;
+        while let Some(held) = next_hitting_set(&family, self.hands, &preference, &self.holds) {
+            if tried == MOST_TRIED {
+                self.collapses.clear(); // they prove nothing
+                break;
+            }
+            tried += 1;
+            if self.stands(&held, blocks)? {
+                self.holds.push(held);
+            } else {
+                self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
+                family.push(self.moving(&held));
+            }
+            self.solver.roll_back(unheld);
+        }
+        Ok(())
+    }
+
+    /// The blocks put up, the one being tried first.
+    fn newest_first(&self) -> impl Iterator<Item = usize> {
+        [self.added].into_iter().chain(self.path.iter().skip(1).rev().map(|level| level.added))
+    }
+
+    /// The blocks that move in the last collapse; those that are held do not, but for rounding.
+    fn moving(&self, held: &[usize]) -> BlockSet {
+        let mut moving = BlockSet::empty(self.assembly.blocks());
+        let blocks = self.collapses.last().into_iter().flat_map(Collapse::moving);
+        blocks.filter(|(block, _)| !held.contains(block)).for_each(|&(block, _)| moving.insert(block));
+        moving
+    }
+
+    /// Whether a hold can follow one of the current sub-assembly's.
+    fn can_follow(&self, held: &[usize]) -> bool {
+        let before = self.path.last().map_or(&[][..], |level| &level.holds);
+        before.iter().any(|before| hands_needed(before, held, self.added) <= self.hands)
+    }
+}
+
+/// Hands, beside the one that carries `added`, while the hold changes as it is put up.
+pub(super) fn hands_needed(before: &[usize], after: &[usize], added: usize) -> usize {
+    before.len() + after.iter().filter(|&block| *block != added && !before.contains(block)).count()
+}
+
+impl StabilityTest for Holding<'_> {
+    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
+        if !self.at_current
+            && let Some(current) = self.path.last()
+        {
+            self.solver.roll_back(current.unheld);
+        }
+        self.at_current = false;
+        self.added = added;
+        self.holds.clear();
+        self.collapses.clear();
+        let before = self.solver.counts().pivots;
+        self.solver.add_rows(self.rows.of(added));
+        if self.stands(&[], blocks)? {
+            self.holds.push(Vec::new());
+        } else {
+            self.find_holds(blocks)?;
+            let mut holds = std::mem::take(&mut self.holds);
+            if !holds.is_empty() {
+                self.collapses.clear();
+            }
+            holds.retain(|held| self.can_follow(held));
+            self.holds = holds;
+        }
+        let stands = !self.holds.is_empty();
+        self.undecided += usize::from(!stands && self.collapses.is_empty());
+        Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
+    }
+
+    fn explains(&self) -> bool {
+        true
+    }
+
+    fn collapses_however_held(&self) -> &[Collapse] {
+        &self.collapses
+    }
+
+    fn descend(&mut self) {
+        let (unheld, holds) = (self.solver.mark(), std::mem::take(&mut self.holds));
+        self.path.push(Level { unheld, added: self.added, holds });
+        self.at_current = true;
+    }
+
+    fn backtrack(&mut self) {
+        self.path.pop();
+        self.at_current = false;
+    }
+}

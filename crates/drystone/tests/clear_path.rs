@@ -1,0 +1,149 @@
+//! Orders in which every block leaves along a straight line, against brute force over all structures with ways out that are
+//! found by many small steps.
+
+use drystone::plan::{ClearPath, Conditions, Limits, Outcome, Plan, Quiet, Test, plan_under};
+use drystone::{BodyOptions, Scene, check::check_blocks, formulate::Assembly, formulate::BlockSet};
+use parry2d_f64::{math::Pose, query::contact, shape::ConvexPolygon};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+fn cleared(scene: &Scene, shortcuts: bool, hold: usize) -> Plan {
+    let conditions = Conditions { hold, clear_path: Some(ClearPath::default()) };
+    plan_under(scene, Test::Reuse, &conditions, Limits { shortcuts, ..Limits::default() }, &mut Quiet).unwrap()
+}
+
+/// The part of a convex polygon on the left of the line through a point.
+fn left_of(corners: &[[f64; 2]], point: [f64; 2], along: [f64; 2]) -> Vec<[f64; 2]> {
+    let side = |[x, y]: [f64; 2]| along[0] * (y - point[1]) - along[1] * (x - point[0]);
+    let mut part = Vec::new();
+    for (k, &a) in corners.iter().enumerate() {
+        let b = corners[(k + 1) % corners.len()];
+        if side(a) >= 0.0 {
+            part.push(a);
+        }
+        if (side(a) > 0.0) != (side(b) > 0.0) && side(a) != 0.0 && side(b) != 0.0 {
+            let t = side(a) / (side(a) - side(b));
+            part.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);
+        }
+    }
+    part
+}
+
+/// A slab on the ground, some with a wall on either side that leans over it, cut into pieces by lines at random.
+fn cut_slab(seed: u64) -> Option<Scene> {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let (width, lean) = (2.0, random.random_range(0.0..0.6));
+    let mut pieces = vec![vec![[-width, 0.0], [width, 0.0], [width - lean, 1.0], [lean - width, 1.0]]];
+    for _ in 0..random.random_range(2..4) {
+        let point = [random.random_range(-1.5..1.5), random.random_range(0.2..0.8)];
+        let angle: f64 = random.random_range(0.0..std::f64::consts::PI);
+        let along = [angle.cos(), angle.sin()];
+        let parts = |piece: &Vec<[f64; 2]>| [left_of(piece, point, along), left_of(piece, point, along.map(|x| -x))];
+        pieces = pieces.iter().flat_map(parts).filter(|piece| piece.len() > 2).collect();
+    }
+    let mut scene = Scene::new([0.0, -9.81], 0.7).unwrap().with_contact_tolerance(1e-6).unwrap();
+    let fixed = || BodyOptions { fixed: true, ..BodyOptions::default() };
+    scene.add_box([0.0, -0.5], [12.0, 1.0], 0.0, fixed()).unwrap();
+    if seed % 8 > 0 {
+        scene.add_polygon(&[[width, 0.0], [4.0, 0.0], [4.0, 1.0], [width - lean, 1.0]], fixed()).unwrap();
+    }
+    if seed % 8 > 1 {
+        scene.add_polygon(&[[-4.0, 0.0], [-width, 0.0], [lean - width, 1.0], [-4.0, 1.0]], fixed()).unwrap();
+    }
+    for piece in &pieces {
+        scene.add_polygon(piece, BodyOptions::default()).ok()?;
+    }
+    drystone::check(&scene, None).ok().filter(|verdict| verdict.stable && pieces.len() <= 7).map(|_| scene)
+}
+
+/// Whether a body, moved by small steps, comes deeper into another than rounding explains.
+fn meets(scene: &Scene, body: usize, other: usize, [dx, dy]: [f64; 2]) -> bool {
+    let shape = |index: usize| {
+        let corners = scene.bodies()[index].vertices().into_iter().map(drystone::geometry::Vector::from_array);
+        ConvexPolygon::from_convex_polyline(corners.collect()).unwrap()
+    };
+    let (a, b) = (shape(body), shape(other));
+    let depth = |t: f64| {
+        let moved = Pose::translation(t * dx, t * dy);
+        contact(&moved, &a, &Pose::IDENTITY, &b, 0.03).unwrap().map_or(-1.0, |contact| -contact.dist)
+    };
+    // What is grazed falls between the steps: where they are near, more of them.
+    (0..300).map(|step| 0.04 * f64::from(step)).any(|t| {
+        let deep = depth(t);
+        deep > 1e-5 || deep > -0.03 && (-20..20).any(|fine| depth((t + 0.001 * f64::from(fine)).max(0.0)) > 1e-5)
+    })
+}
+
+/// Against gravity, along the axes, along and across the contacts of a body.
+fn directions(scene: &Scene, body: usize) -> Vec<[f64; 2]> {
+    let contacts = drystone::find_contacts(scene).unwrap().contacts;
+    let own = contacts.iter().filter(|contact| contact.bodies.contains(&body));
+    let normals = own.map(|contact| contact.normal).chain([[0.0, 1.0, 0.0]]);
+    normals.flat_map(|[x, y, _]| [[x, y], [-x, -y], [-y, x], [y, -x]]).collect()
+}
+
+/// Whether there is an order, by all structures.
+fn brute_force(scene: &Scene) -> bool {
+    let assembly = Assembly::new(scene).unwrap();
+    let blocks = assembly.blocks();
+    let fixed: Vec<usize> = (0..scene.bodies().len()).filter(|&body| scene.bodies()[body].fixed).collect();
+    // For each block and direction without a fixed body in the way: the blocks in the way.
+    let ways: Vec<Vec<usize>> = (0..blocks)
+        .map(|block| {
+            let body = assembly.body_index(block);
+            let open = directions(scene, body).into_iter();
+            let open = open.filter(|&way| !fixed.iter().any(|&other| meets(scene, body, other, way)));
+            let stops = |way, other: &usize| *other != block && meets(scene, body, assembly.body_index(*other), way);
+            open.map(|way| (0..blocks).filter(|other| stops(way, other)).map(|other| 1 << other).sum()).collect()
+        })
+        .collect();
+    let mut reachable = vec![false; 1 << blocks];
+    reachable[0] = true;
+    for mask in 1usize..1 << blocks {
+        let mut set = BlockSet::empty(blocks);
+        (0..blocks).filter(|block| mask >> block & 1 == 1).for_each(|block| set.insert(block));
+        let comes = |block: usize| {
+            let rest = mask & !(1 << block);
+            reachable[rest] && ways[block].iter().any(|stops| stops & rest == 0)
+        };
+        reachable[mask] = set.iter().any(comes) && check_blocks(&assembly, &set).stable;
+    }
+    reachable[(1 << blocks) - 1]
+}
+
+#[test]
+fn brute_force_finds_an_order_where_the_search_does() {
+    let mut seen = [0; 3];
+    for scene in (0..48).filter_map(cut_slab) {
+        let plan = cleared(&scene, true, 0);
+        let without = cleared(&scene, false, 0);
+        assert_eq!((plan.outcome, &plan.order), (without.outcome, &without.order));
+        assert_eq!(plan.outcome == Outcome::Found, brute_force(&scene), "{plan:?}");
+        seen[match plan.outcome {
+            Outcome::Found => 0,
+            Outcome::Locked => 1,
+            _ => 2,
+        }] += 1;
+        verify(&scene, &plan);
+        assert!(plan.outcome != Outcome::Locked || plan.blocked.len() > 1 || plan.falls_next.is_empty());
+    }
+    println!("found, locked, no order: {seen:?}");
+    assert!(seen[0] > 20 && seen[1] > 5, "{seen:?}");
+}
+
+/// What is taken away passes what remains.
+fn verify(scene: &Scene, plan: &Plan) {
+    let fixed = (0..scene.bodies().len()).filter(|&body| scene.bodies()[body].fixed);
+    let fixed: Vec<usize> = fixed.collect();
+    assert_eq!(plan.directions.len(), plan.reached.len());
+    for (placed, (&body, &[x, y, _])) in plan.reached.iter().zip(&plan.directions).enumerate() {
+        let there = plan.reached[..placed].iter().chain(&fixed);
+        assert!(!there.into_iter().any(|&other| meets(scene, body, other, [x, y])));
+    }
+    for blocked in &plan.blocked {
+        for (way, by) in &blocked.ways {
+            assert!(by.iter().all(|&other| meets(scene, blocked.body, other, [way[0], way[1]])));
+            assert!(!by.is_empty());
+        }
+    }
+}
