@@ -1,8 +1,9 @@
 //! Orders in which every block leaves along a straight line, against brute force over all structures with ways out that are
 //! found by many small steps.
 
+use drystone::geometry::PoseInSpace;
 use drystone::plan::{ClearPath, Conditions, Limits, Outcome, Plan, Quiet, Test, plan_under};
-use drystone::{BodyOptions, Scene, check::check_blocks, formulate::Assembly, formulate::BlockSet};
+use drystone::{BodyOptions, Scene, SceneInSpace, check::check_blocks, formulate::Assembly, formulate::BlockSet};
 use parry2d_f64::{math::Pose, query::contact, shape::ConvexPolygon};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -146,4 +147,37 @@ fn verify(scene: &Scene, plan: &Plan) {
             assert!(!by.is_empty());
         }
     }
+}
+
+/// A tongue of two pieces, wide below and narrow above, in a groove of the same form that runs along y: it can only be pulled
+/// out lengthwise, and not while a cube stands at either end. One that can be lifted has to go first.
+#[test]
+fn in_space_a_tongue_leaves_along_its_groove() {
+    let at = |position| PoseInSpace { position, ..PoseInSpace::WORLD };
+    let named = |name: &str, fixed| BodyOptions { name: Some(name.into()), fixed, ..BodyOptions::default() };
+    let corner = |low: [f64; 3], high: [f64; 3], k: usize| [0, 1, 2].map(|a| [low[a], high[a]][k >> a & 1]);
+    let brick = |low, high| (0..8).map(|k| corner(low, high, k)).collect::<Vec<_>>();
+    let closed_by = |fixed_ends: [bool; 2]| {
+        let mut scene = SceneInSpace::new([0.0, 0.0, -9.81], 0.5).unwrap();
+        scene.add_cuboid(at([0.0, 0.0, -0.5]), [20.0, 20.0, 1.0], named("ground", true)).unwrap();
+        for (name, side) in [("left", -1.0), ("right", 1.0)] {
+            let between = |a: f64, b: f64| [f64::min(side * a, side * b), f64::max(side * a, side * b)];
+            let ([l0, l1], [u0, u1]) = (between(1.0, 2.0), between(0.5, 2.0));
+            let pieces = [brick([l0, -2.0, 0.0], [l1, 2.0, 1.0]), brick([u0, -2.0, 1.0], [u1, 2.0, 2.0])];
+            scene.add_solid(&pieces, PoseInSpace::WORLD, named(name, true)).unwrap();
+        }
+        let tongue = [brick([-1.0, -2.0, 0.0], [1.0, 2.0, 1.0]), brick([-0.5, -2.0, 1.0], [0.5, 2.0, 2.0])];
+        scene.add_solid(&tongue, PoseInSpace::WORLD, named("tongue", false)).unwrap();
+        for (name, y, fixed) in [("front", -2.5, fixed_ends[0]), ("back", 2.5, fixed_ends[1])] {
+            scene.add_cuboid(at([0.0, y, 0.5]), [1.0; 3], named(name, fixed)).unwrap();
+        }
+        let conditions = Conditions { hold: 0, clear_path: Some(ClearPath::default()) };
+        plan_under(&scene, Test::Reuse, &conditions, Limits::default(), &mut Quiet).unwrap()
+    };
+    let plan = closed_by([true, true]);
+    assert_eq!((plan.outcome, plan.blocked.len()), (Outcome::Locked, 1));
+    assert!(plan.blocked[0].ways.iter().all(|(_, by)| !by.is_empty()));
+    let plan = closed_by([true, false]);
+    assert_eq!((plan.outcome, plan.order.as_slice()), (Outcome::Found, &[5, 3][..]));
+    assert_eq!(plan.directions, [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 }
