@@ -135,3 +135,16 @@ def test_the_command_line_tells_the_directions(tmp_path: object) -> None:
     assert "3 x (0,1)" in run.output
     run = CliRunner().invoke(app, ["plan", "column:4", "--clear-path", "--json"])
     assert json.loads(run.output)["directions"] == [[0.0, 1.0]] * 3
+
+
+def test_in_space_a_plank_is_held_and_blocks_leave_upward() -> None:
+    scene = ds.Scene(dimension=3, friction=0.5)
+    scene.add_box((0, 0, 0.5), (1, 1, 1), fixed=True, name="pier")
+    scene.add_box((0.6, 0, 1.1), (2, 1, 0.2), name="plank")
+    scene.add_box((0, 0, 1.6), (0.8, 0.8, 0.8), name="weight")
+    assert ds.plan(scene, clear_path=True).status == "no_order"
+    plan = ds.plan(scene, hold=1, clear_path=True, directions=[(0, 0, 2)])
+    assert (plan.order, plan.holds) == (("weight", "plank"), ((), ("plank",)))
+    assert plan.directions == ((0.0, 0.0, 1.0),) * 2
+    with pytest.raises(ValueError, match="3 numbers"):
+        ds.plan(scene, clear_path=True, directions=[(0, 1)])
