@@ -15,6 +15,8 @@ export interface Wishes {
     /** The card of the block `by` further on in the list of blocks. */
     select(by: number): void;
     deselect(): void;
+    /** Keys beside those below. */
+    keys: Record<string, () => void>;
 }
 
 export function element<T extends HTMLElement>(id: string): T {
@@ -101,6 +103,7 @@ export class Controls {
             "=": () => wishes.zoom(1.25),
             "-": () => wishes.zoom(0.8),
             "0": () => wishes.showAll(),
+            ...wishes.keys,
         };
     }
 }

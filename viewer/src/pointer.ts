@@ -1,13 +1,6 @@
 /** The pointer on the picture: cards, zoom, drag. */
 import type { Camera } from "./camera.ts";
-
-export interface PointerWishes {
-    /** The pointer rests here (pixels), or has left. */
-    hover(at: [number, number] | null): void;
-    click(at: [number, number]): void;
-    /** The camera has moved. */
-    moved(): void;
-}
+import type { PointerWishes } from "./stage.ts";
 
 /** Pixels a press may slide and still be a click. */
 const SLIP = 4;

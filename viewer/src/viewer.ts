@@ -1,7 +1,4 @@
 /** Puts the parts together: one film, one picture, its charts and controls. */
-import { drawForces, drawKey, forceScale } from "./arrows.ts";
-import { drawBlocks } from "./blocks.ts";
-import { Camera, viewOf } from "./camera.ts";
 import { Card } from "./card.ts";
 import { Chart } from "./chart.ts";
 import { State } from "./contract.ts";
@@ -11,21 +8,17 @@ import { Fade } from "./fade.ts";
 import type { Film } from "./film.ts";
 import { drawLegend } from "./legend.ts";
 import { type Palette, palette } from "./palette.ts";
-import { bodyAt } from "./picking.ts";
-import { bindPointer } from "./pointer.ts";
-import { Surface } from "./surface.ts";
+import type { Stage } from "./stage.ts";
 import { planTimes, Timeline } from "./timeline.ts";
 
 export class Viewer {
     private readonly film: Film;
     private readonly timeline: Timeline;
-    private readonly camera = new Camera();
-    private readonly surface = new Surface(element<HTMLCanvasElement>("scene"));
+    private readonly stage: Stage;
     private readonly card = new Card(element("card"));
     private readonly charts: Chart[];
     private readonly controls: Controls;
     private readonly fade: Fade;
-    private readonly metres: number;
     private colours: Palette;
     private showsForces: boolean;
     private showsNames = true;
@@ -38,24 +31,25 @@ export class Viewer {
     private requested = false;
     private renewCharts = false;
 
-    constructor(film: Film) {
+    constructor(film: Film, stage: Stage) {
         this.film = film;
+        this.stage = stage;
         this.timeline = new Timeline(film.times ?? planTimes(film.count), () => this.request());
         this.charts = film.series.map((series) => new Chart(series, (frame) => this.goTo(frame)));
         element("charts").append(...this.charts.map((chart) => chart.element));
         const calm = matchMedia("(prefers-reduced-motion: reduce)");
         this.fade = new Fade(film.bodies.length, () => calm.matches);
-        this.metres = forceScale(film);
         this.showsForces = film.hasForces;
         this.colours = palette(document.documentElement);
         this.controls = new Controls(this.timeline, {
             toggleForces: () => this.setForces(!this.showsForces),
             toggleNames: () => this.setNames(!this.showsNames),
             stretch: (factor) => this.change(() => (this.stretch = factor)),
-            zoom: (factor) => this.zoom(factor),
-            showAll: () => this.change(() => this.fit()),
+            zoom: (factor) => this.change(() => stage.zoom(factor)),
+            showAll: () => this.change(() => stage.showAll()),
             select: (by) => this.select(by),
             deselect: () => this.change(() => (this.selected = -1)),
+            keys: stage.keys,
         });
         drawLegend(element("legend"), film);
         this.setForces(this.showsForces);
@@ -64,12 +58,12 @@ export class Viewer {
     }
 
     private bind(): void {
-        bindPointer(this.surface.canvas, this.camera, {
+        this.stage.bind({
             hover: (at) => this.change(() => (this.pointer = at)),
             click: (at) => this.change(() => (this.selected = this.bodyAt(at))),
             moved: () => this.request(),
         });
-        new ResizeObserver(() => this.request()).observe(this.surface.canvas);
+        new ResizeObserver(() => this.request()).observe(this.stage.canvas);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () =>
             this.change(() => {
                 this.colours = palette(document.documentElement);
@@ -104,29 +98,15 @@ export class Viewer {
     }
 
     private draw(): void {
-        const { film, surface, camera, colours } = this;
+        const { stage, fade, colours } = this;
         const { frame } = this.timeline;
-        if (surface.resize()) this.fit();
-        surface.canvas.classList.toggle("zoomed", camera.zoomed);
-        surface.clear(colours.page);
         const marked = this.pointer ? this.bodyAt(this.pointer) : this.selected;
-        const scene = { context: surface.context, film, frame, camera };
-        drawBlocks(scene, this.fade, { colours, names: this.showsNames, marked });
-        if (this.showsForces) this.drawForces(frame);
+        const [names, forces] = [this.showsNames, this.showsForces];
+        stage.draw({ frame, fade, colours, names, forces, stretch: this.stretch, marked });
         this.showCard(frame, marked);
         this.say(frame);
         for (const chart of this.charts) chart.draw(frame, colours, this.renewCharts);
         this.renewCharts = false;
-    }
-
-    private drawForces(frame: number): void {
-        const { film, surface, camera, colours } = this;
-        const metres = this.metres * this.stretch;
-        const there = (body: number) => film.state(frame, body) !== State.absent;
-        const known = film.forces(film.forcesFrame(frame)) ?? [];
-        const forces = known.filter(({ a, b }) => there(a) && there(b));
-        drawForces(surface.context, film, forces, camera, metres, colours);
-        drawKey(surface.context, surface.height, metres * camera.scale, colours);
     }
 
     private showCard(frame: number, body: number): void {
@@ -134,8 +114,7 @@ export class Viewer {
             this.card.hide();
             return;
         }
-        const [x, y] = this.film.pose(frame, body);
-        const at = this.pointer ?? [this.camera.screenX(x), this.camera.screenY(y)];
+        const at = this.pointer ?? this.stage.placeOf(frame, body);
         this.card.show(this.film.bodies[body].name, facts(this.film, frame, body), ...at);
     }
 
@@ -154,22 +133,13 @@ export class Viewer {
         this.controls.update([where, what].filter(Boolean).join(". "));
     }
 
-    private fit(): void {
-        this.camera.fit(viewOf(this.film), this.surface.width, this.surface.height);
-    }
-
-    private zoom(factor: number): void {
-        this.camera.zoom(factor, this.surface.width / 2, this.surface.height / 2);
-        this.request();
-    }
-
     private goTo(frame: number): void {
         this.timeline.pause();
         this.timeline.seek(frame);
     }
 
     private bodyAt(at: [number, number]): number {
-        return bodyAt(this.film, this.timeline.frame, ...this.camera.world(...at));
+        return this.stage.bodyAt(this.timeline.frame, at);
     }
 
     private select(by: number): void {
