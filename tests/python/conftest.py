@@ -13,6 +13,11 @@ import pytest
 
 import drystone as ds
 
+pytest.register_assert_rewrite("tab")
+from tab import browser, opened, playwright  # noqa: E402
+
+__all__ = ["browser", "opened", "playwright"]
+
 ROOT = Path(__file__).resolve().parents[2]
 
 

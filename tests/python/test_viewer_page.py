@@ -1,79 +1,15 @@
-"""The page as a reader meets it: opened from disk in Chromium, without a network.
-
-Without Chromium these tests are skipped, except where CI is set: there it has to be.
-"""
+"""The page as a reader meets it: opened from disk in Chromium, without a network."""
 
 from __future__ import annotations
 
-import os
-import shutil
-from collections.abc import Callable, Iterator
-from pathlib import Path
-
 import numpy as np
 import pytest
+from playwright.sync_api import expect
 
 import drystone as ds
 from conftest import orderless
 from drystone.viewer import FrameForces, Page, run_page
-
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
-if CHROMIUM is None and not os.environ.get("CI"):
-    pytest.skip("no chromium on this machine", allow_module_level=True)
-
-from playwright.sync_api import Browser, Locator, expect, sync_playwright  # noqa: E402
-from playwright.sync_api import Page as Tab  # noqa: E402
-
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-]
-READY = "#viewer[aria-busy=false]"
-Opener = Callable[..., Tab]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    assert CHROMIUM is not None, "CI needs chromium: see .ci/run"
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture
-def opened(browser: Browser, tmp_path: Path) -> Iterator[Opener]:
-    """Open a page from disk; at the end nothing was asked of a network and nothing complained."""
-    complaints: list[str] = []
-    asked: list[str] = []
-    contexts = []
-
-    def open_page(page: Page | str, width: int = 1000, height: int = 800, **options: str) -> Tab:
-        path = tmp_path / f"{len(contexts)}.html"
-        path.write_text(page if isinstance(page, str) else page.html())
-        context = browser.new_context(
-            viewport={"width": width, "height": height},
-            offline=True,
-            **options,  # type: ignore[arg-type]
-        )
-        contexts.append(context)
-        tab = context.new_page()
-        tab.on("console", lambda message: complaints.append(message.text))
-        tab.on("pageerror", lambda error: complaints.append(str(error)))
-        tab.on("request", lambda request: asked.append(request.url))
-        tab.goto(path.as_uri())
-        tab.wait_for_selector(READY)
-        return tab
-
-    yield open_page
-    for context in contexts:
-        context.close()
-    assert complaints == []
-    assert all(url.startswith(("file://", "data:", "about:", "blob:")) for url in asked), asked
+from tab import LIGHT, READY, Opener, count, find, hover, pixels, press, says
 
 
 @pytest.fixture(scope="module")
@@ -104,38 +40,6 @@ def a_run() -> Page:
     )
     pivots = np.where(np.arange(steps) == 60, 12, 0)
     return run_page(scene, times, poses, motionless, pivots, 1e-6 * (1 + pivots), forces)
-
-
-def says(tab: Tab, identifier: str, text: str) -> None:
-    """Wait until an element says this: the page answers in its next animation frame."""
-    expect(tab.locator(f"#{identifier}")).to_have_text(text)
-
-
-def pixels(tab: Tab) -> np.ndarray:
-    """(height, width, 3) of the picture, drawn after what was just asked for."""
-    import io
-
-    from matplotlib.image import imread
-
-    tab.wait_for_timeout(450)  # fades last 300 ms
-    shot = io.BytesIO(tab.locator("#scene").screenshot())
-    picture: np.ndarray = (255 * imread(shot, format="png")[:, :, :3]).round().astype(int)
-    return picture
-
-
-def count(picture: np.ndarray, colour: str) -> int:
-    """Pixels of a colour of the page."""
-    wanted = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
-    return int(np.sum(np.all(np.abs(picture - wanted) <= 2, axis=2)))
-
-
-LIGHT = {"stone": "#e4dccb", "still": "#6b7178", "next": "#e69f00", "force": "#005fa3"}
-
-
-def press(tab: Tab, *keys: str) -> None:
-    for key in keys:
-        tab.keyboard.press(key)
-    tab.wait_for_timeout(50)
 
 
 def test_the_plan_opens_at_the_whole_structure(opened: Opener, plan: ds.Plan) -> None:
@@ -259,27 +163,10 @@ def test_frames_without_forces_show_those_before_and_say_so(opened: Opener, plan
     says(tab, "caption", "4 is taken away; 3 blocks left. Next: 3.")
 
 
-def _hover(tab: Tab, x: float, y: float) -> Locator:
-    """Move the pointer to a place of the picture, as shares of its width and height."""
-    box = tab.locator("#scene").bounding_box()
-    assert box is not None
-    tab.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
-    tab.wait_for_timeout(100)
-    return tab.locator("#card")
-
-
-def _find(tab: Tab, colour: str) -> tuple[float, float]:
-    """The middle of what has a colour, as shares of the picture."""
-    picture = pixels(tab)
-    wanted = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
-    ys, xs = np.nonzero(np.all(np.abs(picture - wanted) <= 2, axis=2))
-    return float(np.mean(xs) / picture.shape[1]), float(np.mean(ys) / picture.shape[0])
-
-
 def test_the_card_of_a_block(opened: Opener, plan: ds.Plan) -> None:
     tab = opened(plan.view())
-    place = _find(tab, LIGHT["next"])
-    card = _hover(tab, *place)
+    place = find(tab, LIGHT["next"])
+    card = hover(tab, *place)
     expect(card).to_be_visible()
     lines = card.inner_text().split("\n")
     assert lines[0] == plan.order[0]
@@ -289,13 +176,13 @@ def test_the_card_of_a_block(opened: Opener, plan: ds.Plan) -> None:
     assert any("force" in line and line.endswith(" N") for line in lines)
     press(tab, "ArrowRight")
     expect(card).to_contain_text("taken away in step 1")
-    _hover(tab, 0.01, 0.01)
+    hover(tab, 0.01, 0.01)
     expect(card).to_be_hidden()
 
 
 def test_a_click_keeps_the_card(opened: Opener, plan: ds.Plan) -> None:
     tab = opened(plan.view())
-    card = _hover(tab, *_find(tab, LIGHT["next"]))
+    card = hover(tab, *find(tab, LIGHT["next"]))
     tab.mouse.down()
     tab.mouse.up()
     tab.mouse.move(1, 1)
@@ -309,9 +196,9 @@ def test_zoom_and_drag(opened: Opener, plan: ds.Plan) -> None:
     press(tab, "+", "+", "+")
     near = pixels(tab)
     assert count(near, LIGHT["stone"]) > 1.3 * count(whole, LIGHT["stone"])
-    _hover(tab, 0.5, 0.5)
+    hover(tab, 0.5, 0.5)
     tab.mouse.down()
-    _hover(tab, 0.4, 0.6)
+    hover(tab, 0.4, 0.6)
     tab.mouse.up()
     tab.mouse.move(1, 1)
     assert not np.array_equal(pixels(tab), near)
