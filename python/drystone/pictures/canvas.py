@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import matplotlib as mpl
 import numpy as np
@@ -16,7 +16,6 @@ from matplotlib.figure import Figure
 
 from drystone.files import write_whole
 from drystone.pictures import style
-from drystone.scene import Body
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,6 +33,20 @@ SETTINGS: dict[Any, Any] = {
     "hatch.linewidth": 0.6,
 }
 """Same input, same file: no random identifiers. Text stays text."""
+
+
+class Outlined(Protocol):
+    """What is drawn of a body: one of the plane, or what is seen of one in space."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def fixed(self) -> bool: ...
+    @property
+    def centroid(self) -> tuple[float, float]: ...
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """(n, 2), metres on the picture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +67,7 @@ class Canvas:
 
 
 def fitted(
-    bodies: Sequence[Body],
+    bodies: Sequence[Outlined],
     title: str,
     note: str = "",
     *,
@@ -131,7 +144,7 @@ def _rendered(figure: Figure, kind: str) -> bytes:
     return out.getvalue()
 
 
-def _view(bodies: Sequence[Body]) -> tuple[float, float, float, float]:
+def _view(bodies: Sequence[Outlined]) -> tuple[float, float, float, float]:
     """The movable bodies and as much of the fixed ones as `FIXED_REACH` lets in, with a margin."""
     movable = [body.vertices for body in bodies if not body.fixed]
     every = [body.vertices for body in bodies] or [np.array([[0.0, 0.0], [1.0, 1.0]])]

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import colormaps
-from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import Normalize, to_hex
+from matplotlib.colors import to_hex
 
-from drystone.pictures import style
+from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
+from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.shapes import (
     draw_absent,
     draw_blocks,
@@ -36,6 +36,8 @@ GHOST_MOVE = 0.35
 
 def scene_figure(scene: Scene) -> Figure:
     """The bodies with their names."""
+    if scene.dimension == 3:
+        return in_space.scene_figure(scene)
     bodies = scene.bodies
     movable = [body for body in bodies if not body.fixed]
     canvas = fitted(
@@ -51,6 +53,8 @@ def scene_figure(scene: Scene) -> Figure:
 
 def verdict_figure(verdict: Verdict) -> Figure:
     """Contact forces to scale; blocks that fall in red, with where they go."""
+    if verdict.scene.dimension == 3:
+        return in_space.verdict_figure(verdict)
     bodies = verdict.scene.bodies
     present = set(verdict.names)
     falling = set(verdict.falling)
@@ -76,6 +80,8 @@ def plan_figure(plan: Plan) -> Figure:
     """
     if plan.status == "whole_falls" and plan.whole is not None:
         return verdict_figure(plan.whole)
+    if plan.scene.dimension == 3:
+        return in_space.plan_figure(plan)
     # No times: the same plan is the same picture.
     work = f"{counted(plan.tests, 'test')} ({plan.test}), {counted(plan.pivots, 'pivot')}"
     headline = str(plan).partition("; ")[0]
@@ -95,7 +101,7 @@ def plan_figure(plan: Plan) -> Figure:
     if plan.directions:
         _draw_ways_out(canvas, plan)
     draw_labels(canvas, bodies, {n: str(i + 1) for i, n in enumerate(plan.order)}, fills)
-    _draw_order_bar(canvas, len(plan.order))
+    draw_order_bar(canvas, len(plan.order))
     return canvas.figure
 
 
@@ -175,17 +181,3 @@ def _corner_moves(body: Body, acceleration: np.ndarray) -> np.ndarray:
     turn = acceleration[2] * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
     moves: np.ndarray = acceleration[:2] + turn
     return moves
-
-
-def _draw_order_bar(canvas: Canvas, count: int) -> None:
-    """The colour bar: first removed at the top, as the blocks usually are."""
-    frame = canvas.axes.get_position()
-    width = canvas.figure.get_figwidth()
-    bar = canvas.figure.add_axes((1 - 0.78 / width, frame.y0, 0.14 / width, frame.height))
-    colours = ScalarMappable(Normalize(-max(count, 2), -1), colormaps[style.ORDER_MAP])
-    ticks = sorted({1, count, *np.linspace(1, count, 5).round().astype(int).tolist()})
-    drawn = canvas.figure.colorbar(colours, cax=bar, ticks=[-tick for tick in ticks])
-    drawn.ax.set_yticklabels([str(tick) for tick in ticks], size=8, color=style.INK)
-    drawn.ax.tick_params(length=2, color=style.FAINT)
-    drawn.outline.set_visible(False)
-    bar.set_title("removed", size=8, color=style.INK, loc="left", pad=8)

@@ -9,11 +9,10 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
 from drystone.pictures import style
-from drystone.pictures.canvas import Canvas
-from drystone.scene import Body
+from drystone.pictures.canvas import Canvas, Outlined
 
 
-def draw_fixed(canvas: Canvas, bodies: Sequence[Body]) -> None:
+def draw_fixed(canvas: Canvas, bodies: Sequence[Outlined]) -> None:
     """The fixed bodies, hatched grey."""
     fixed = [body.vertices for body in bodies if body.fixed]
     canvas.axes.add_collection(
@@ -26,7 +25,7 @@ def draw_fixed(canvas: Canvas, bodies: Sequence[Body]) -> None:
 
 def draw_blocks(
     canvas: Canvas,
-    bodies: Sequence[Body],
+    bodies: Sequence[Outlined],
     fills: Mapping[str, str],
     edges: Mapping[str, str] | None = None,
 ) -> None:
@@ -37,14 +36,14 @@ def draw_blocks(
             [body.vertices for body in drawn],
             facecolors=[fills[body.name] for body in drawn],
             edgecolors=[(edges or {}).get(body.name, style.INK) for body in drawn],
-            linewidths=_line_width(canvas, drawn),
+            linewidths=line_width(canvas, drawn),
             joinstyle="round",
         ),
         autolim=False,
     )
 
 
-def draw_held(canvas: Canvas, bodies: Sequence[Body]) -> None:
+def draw_held(canvas: Canvas, bodies: Sequence[Outlined]) -> None:
     """A hatch over blocks that are held."""
     canvas.axes.add_collection(
         PolyCollection(
@@ -58,7 +57,7 @@ def draw_held(canvas: Canvas, bodies: Sequence[Body]) -> None:
     )
 
 
-def draw_absent(canvas: Canvas, bodies: Sequence[Body]) -> None:
+def draw_absent(canvas: Canvas, bodies: Sequence[Outlined]) -> None:
     """The dotted outlines of bodies that are not there."""
     canvas.axes.add_collection(
         PolyCollection(
@@ -73,7 +72,7 @@ def draw_absent(canvas: Canvas, bodies: Sequence[Body]) -> None:
 
 
 def draw_labels(
-    canvas: Canvas, bodies: Sequence[Body], labels: Mapping[str, str], fills: Mapping[str, str]
+    canvas: Canvas, bodies: Sequence[Outlined], labels: Mapping[str, str], fills: Mapping[str, str]
 ) -> None:
     """A label on every body that `labels` names, in one size; none if they would be too small."""
     drawn = [body for body in bodies if body.name in labels]
@@ -97,20 +96,21 @@ def draw_labels(
             )
 
 
-def typical_size(bodies: Sequence[Body]) -> float:
+def typical_size(bodies: Sequence[Outlined]) -> float:
     """The median over bodies of the square root of the area of the bounding box, metres."""
     sides = [np.ptp(body.vertices, axis=0) for body in bodies]
     return float(np.median([np.sqrt(side[0] * side[1]) for side in sides])) if sides else 1.0
 
 
-def _fitting_size(canvas: Canvas, body: Body, label: str) -> float:
+def line_width(canvas: Canvas, bodies: Sequence[Outlined]) -> float:
+    """Points: thinner where bodies are small."""
+    return float(np.clip(0.04 * typical_size(bodies) * canvas.points_per_metre, 0.15, 1.0))
+
+
+def _fitting_size(canvas: Canvas, body: Outlined, label: str) -> float:
     """Points of text that fill about half of the body."""
     width, height = np.ptp(body.vertices, axis=0) * canvas.points_per_metre
     return float(min(0.6 * height, 0.8 * width / (0.6 * max(len(label), 1))))
-
-
-def _line_width(canvas: Canvas, bodies: Sequence[Body]) -> float:
-    return float(np.clip(0.04 * typical_size(bodies) * canvas.points_per_metre, 0.15, 1.0))
 
 
 def _contrasting(colour: str) -> str:

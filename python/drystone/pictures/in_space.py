@@ -1,0 +1,139 @@
+"""The pictures of `figures.py` for scenes in space: the same colours, keys and words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.colors import to_hex
+from numpy.typing import NDArray
+from scipy.spatial import ConvexHull
+
+from drystone.pictures import style
+from drystone.pictures.arrows import draw_arrows
+from drystone.pictures.axonometry import View
+from drystone.pictures.canvas import Canvas, fitted
+from drystone.pictures.order_bar import draw_order_bar
+from drystone.pictures.shapes import typical_size
+from drystone.pictures.solids import Drawing, draw_dashed, draw_solids
+from drystone.verdict import Verdict, counted
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from drystone.planning import Plan
+    from drystone.scene import Scene, Solid
+
+GHOST_MOVE = 0.35
+"""How far the fastest corner of a falling block is shown moved, in typical block sizes."""
+
+
+def scene_figure(scene: Scene) -> Figure:
+    """The bodies with their names."""
+    drawing = _drawing(scene)
+    movable = [body.name for body in drawing.bodies if not body.fixed]
+    title = f"{counted(len(movable), 'block')}, {counted(len(scene.contacts), 'contact point')}"
+    canvas = fitted(drawing.outlines, title)
+    fills = dict.fromkeys(movable, style.STONE)
+    draw_solids(canvas, drawing, fills, labels={name: name for name in movable})
+    return canvas.figure
+
+
+def verdict_figure(verdict: Verdict) -> Figure:
+    """Contact forces to scale; blocks that fall in red, with where they go."""
+    drawing = _drawing(verdict.scene)
+    falling = set(verdict.falling)
+    headline, _, details = str(verdict).partition("; ")
+    canvas = fitted(drawing.outlines, headline, details, key=True)
+    fills = {name: style.FALLING if name in falling else style.STONE for name in verdict.names}
+    # Names would be under the arrows.
+    draw_solids(canvas, drawing, fills, dict.fromkeys(falling, style.FALL))
+    present = [outline for outline in drawing.outlines if outline.name in fills]
+    longest = min(0.12 * canvas.diagonal, 0.6 * typical_size(present))
+    points = np.array([force.point for force in verdict.forces]).reshape(-1, 3)
+    vectors = np.array([force.force for force in verdict.forces]).reshape(-1, 3)
+    draw_forces(canvas, drawing, points, vectors, verdict.scene.gravity, longest)
+    if falling:
+        _draw_fall(canvas, drawing, verdict, longest, typical_size(present))
+    return canvas.figure
+
+
+def plan_figure(plan: Plan) -> Figure:
+    """Blocks coloured and numbered by their place in the order."""
+    work = f"{counted(plan.tests, 'test')} ({plan.test}), {counted(plan.pivots, 'pivot')}"
+    headline = str(plan).partition("; ")[0]
+    drawing = _drawing(plan.scene)
+    if not plan.found:
+        return _unfinished_figure(plan, drawing, headline, work)
+    canvas = fitted(drawing.outlines, headline, work, colour_bar=True)
+    colours = colormaps[style.ORDER_MAP]
+    last = max(len(plan.order) - 1, 1)
+    fills = {name: to_hex(colours(1 - i / last)) for i, name in enumerate(plan.order)}
+    numbers = {name: str(i + 1) for i, name in enumerate(plan.order)}
+    draw_solids(canvas, drawing, fills, labels=numbers)
+    draw_order_bar(canvas, len(plan.order))
+    return canvas.figure
+
+
+def draw_forces(
+    canvas: Canvas,
+    drawing: Drawing,
+    points: NDArray[np.float64],
+    vectors: NDArray[np.float64],
+    gravity: Sequence[float],
+    longest: float,
+) -> None:
+    """Each once, as it acts on the body that is carried: against gravity.
+
+    `longest` is how long the longest would be, were it not foreshortened.
+    """
+    carrying = np.where((vectors @ np.asarray(gravity) > 0)[:, None], -vectors, vectors)
+    flat = drawing.view.flat(carrying)
+    peak = float(np.max(np.linalg.norm(vectors, axis=1), initial=0.0))
+    if peak > 0:
+        reach = longest * float(np.max(np.hypot(*flat.T))) / peak
+        draw_arrows(canvas, drawing.view.flat(points), flat, reach, "N", style.FORCE)
+
+
+def _drawing(scene: Scene) -> Drawing:
+    bodies = scene.bodies
+    return Drawing.of(bodies, View.of(bodies, scene.gravity))
+
+
+def _unfinished_figure(plan: Plan, drawing: Drawing, headline: str, work: str) -> Figure:
+    legend = f"reached: {counted(len(plan.reached), 'block')}"
+    if plan.falls_next:
+        legend += "; red: something falls when any of these is added"
+    canvas = fitted(drawing.outlines, headline, f"{legend}\n{work}")
+    fills = dict.fromkeys(plan.reached, style.STONE)
+    fills |= dict.fromkeys(plan.falls_next, style.FALLING)
+    names = {name: name for name in fills}
+    draw_solids(canvas, drawing, fills, dict.fromkeys(plan.falls_next, style.FALL), names)
+    return canvas.figure
+
+
+def _draw_fall(
+    canvas: Canvas, drawing: Drawing, verdict: Verdict, longest: float, size: float
+) -> None:
+    """Accelerations to scale, and dashed outlines of where the blocks are going."""
+    falling = [body for body in drawing.bodies if body.name in verdict.falling]
+    moves = np.array([verdict.acceleration(body.name) for body in falling])
+    origins = np.array([body.centroid for body in falling])
+    flat = drawing.view.flat
+    draw_arrows(canvas, flat(origins), flat(moves[:, :3]), longest, "m/s²", style.FALL, key_at=0.5)
+    ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
+    fastest = max(float(np.max(np.linalg.norm(ghost, axis=1))) for ghost in ghosts)
+    reach = GHOST_MOVE * size / fastest if fastest > 0 else 0.0
+    moved = [
+        flat(body.vertices + reach * ghost) for body, ghost in zip(falling, ghosts, strict=True)
+    ]
+    draw_dashed(canvas, [points[ConvexHull(points).vertices] for points in moved])
+
+
+def _corner_moves(body: Solid, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 3): acceleration of every corner of a body that is at rest, m/s^2."""
+    arm = body.vertices - np.asarray(body.centroid)
+    moves: NDArray[np.float64] = acceleration[:3] + np.cross(acceleration[3:], arm)
+    return moves
