@@ -7,9 +7,10 @@ RUST_NEEDED := 1.88
 VENV := $(CURDIR)/.venv
 BIN := $(VENV)/bin
 OUT := out/demo
-# The viewer's page: one file, bundled by Node, which comes from PyPI into .venv like the rest.
-PAGE := python/drystone/viewer/page.html
-PAGE_SOURCES := viewer/build.ts $(wildcard viewer/src/*)
+# The viewer's pages, in the plane and in space: one file each, bundled by Node, which comes from
+# PyPI into .venv like the rest.
+PAGES := python/drystone/viewer/page.html python/drystone/viewer/space.html
+PAGE_SOURCES := viewer/build.ts $(wildcard viewer/src/*.* viewer/src/space/*)
 NPM := PATH="$(BIN):$$PATH" npm --prefix viewer --loglevel=error
 NPM_LOG := viewer/node_modules.log
 # One interpreter and one virtual environment for every tool, whatever is active in the shell.
@@ -46,7 +47,7 @@ demo: build
 test: test-tools style build rust-tests viewer-tests python-tests lint
 	@echo "All tests and checks passed."
 
-build: $(VENV)/.ready $(PAGE)
+build: $(VENV)/.ready $(PAGES)
 	@echo "== building the core (release; a minute or two the first time)"
 	@$(BIN)/maturin develop --release --quiet --extras dev
 
@@ -82,7 +83,8 @@ viewer-lint: viewer/node_modules/.ready
 	@echo "== biome, tsc"
 	@$(NPM) run --silent lint
 
-$(PAGE): viewer/node_modules/.ready $(PAGE_SOURCES)
+# One run writes both, so that the second is then no older than what it is made from.
+$(PAGES): viewer/node_modules/.ready $(PAGE_SOURCES)
 	@echo "== bundling the viewer"
 	@$(NPM) run --silent build
 
@@ -119,4 +121,4 @@ test-tools: tools
 	@:
 
 clean:
-	rm -rf $(VENV) target out $(PAGE) viewer/node_modules .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) target out $(PAGES) viewer/node_modules .mypy_cache .pytest_cache .ruff_cache

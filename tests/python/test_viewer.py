@@ -16,13 +16,17 @@ from matplotlib.patches import FancyArrow
 import drystone as ds
 from conftest import ROOT, Ran, orderless
 from drystone import _core, pictures
+from drystone.pictures.axonometry import rotation
 from drystone.viewer import budget, contract, page
 from drystone.viewer.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT, unpacked
 from drystone.viewer.of_plan import plan_recording
 from drystone.viewer.recording import FrameForces, Recording, Series
 
-FIXTURE = ROOT / "viewer" / "test" / "plan.json"
-"""A plan as Python writes it, which the front end's tests read."""
+FIXTURES = {
+    ROOT / "viewer" / "test" / "plan.json": lambda: ds.scenes.five_blocks(),
+    ROOT / "viewer" / "test" / "space" / "plan.json": lambda: ds.scenes.column(2).extruded(),
+}
+"""Plans as Python writes them, in the plane and in space, which the front end's tests read."""
 
 
 def _form(value: Any) -> Any:
@@ -36,8 +40,8 @@ def _form(value: Any) -> Any:
     return type(value).__name__
 
 
-def _fixture() -> str:
-    recording = ds.plan(ds.scenes.five_blocks()).view().recording
+def _written(scene: ds.Scene) -> str:
+    recording = ds.plan(scene).view().recording
     return json.dumps(recording.to_json(), indent=1) + "\n"
 
 
@@ -108,6 +112,53 @@ def test_the_forces_of_every_step_balance_the_weights() -> None:
             assert np.sum(arm[:, 0] * f[:, 1] - arm[:, 1] * f[:, 0]) == pytest.approx(0, abs=1e-9)
 
 
+def test_the_forces_of_every_step_balance_the_weights_in_space() -> None:
+    """As in the plane, with three numbers a moment."""
+    plan = ds.plan(ds.scenes.wall(3, 4).extruded(0.4))
+    recording = plan_recording(plan)
+    forces = recording.forces
+    assert recording.dimension == 3
+    assert forces is not None
+    offsets = np.asarray(forces.offsets)
+    pairs, points = np.asarray(forces.bodies), np.asarray(forces.points)
+    vectors = np.asarray(forces.vectors)
+    for step in range(len(plan.order)):
+        span = slice(offsets[step], offsets[step + 1])
+        for i, body in enumerate(plan.scene.bodies):
+            if body.fixed or body.name in plan.order[:step]:
+                continue
+            sign = (pairs[span, 1] == i).astype(float) - (pairs[span, 0] == i)
+            f = sign[:, None] * vectors[span]
+            moment = np.cross(points[span] - np.asarray(body.centroid), f).sum(axis=0)
+            assert f.sum(axis=0) == pytest.approx([0, 0, 9.81 * body.mass], abs=1e-9)
+            assert moment == pytest.approx(np.zeros(3), abs=1e-9)
+
+
+def test_a_run_in_space_has_positions_and_quaternions() -> None:
+    scene = ds.scenes.column(2).extruded()
+    first = [[*body.centroid, *body.orientation] for body in scene.bodies]
+    arrays = (np.arange(4) / 240, np.tile(first, (4, 1, 1)), np.ones((4, len(scene)), dtype=bool))
+    shown = ds.viewer.run_page(scene, *arrays, np.zeros(3), np.zeros(3))
+    embedded = _embedded(shown.html())
+    assert embedded["dimension"] == 3
+    assert unpacked(embedded["frames"]["poses"]).shape == (4, len(scene), 7)
+    assert embedded["bodies"][0]["vertices"] is None
+    with pytest.raises(ValueError, match=r"poses has the shape \(4, \d, 3\): .* 7\)"):
+        ds.viewer.run_page(scene, arrays[0], arrays[1][:, :, :3], arrays[2], [0] * 3, [0] * 3)
+
+
+def test_pieces_are_in_the_body_s_own_frame() -> None:
+    """Corners of a turned cuboid, placed by its pose, are those of the scene."""
+    scene = ds.Scene(dimension=3)
+    scene.add_box((1, 2, 3), (1, 2, 0.5), name="b", orientation=(0.8, 0, 0.6, 0))
+    body = _embedded(ds.plan(scene).view().html())["bodies"][0]
+    turned = rotation(body["pose"][3:])
+    corners = np.array(body["pieces"][0]["vertices"]) @ turned.T + body["pose"][:3]
+    assert corners == pytest.approx(scene.body("b").vertices)
+    faces = body["pieces"][0]["faces"]
+    assert sorted(len(face) for face in faces) == [4] * 6
+
+
 def test_charts_hold_every_test_once() -> None:
     plan = ds.plan(ds.scenes.random_stack(84))
     pivots, seconds, tests = plan_recording(plan).series
@@ -141,8 +192,10 @@ def test_nothing_to_take_apart_is_a_page(scene: ds.Scene) -> None:
     assert _embedded(ds.plan(scene).view().html())["frames"]["count"] >= 1
 
 
-def test_what_the_front_end_is_tested_with_is_what_python_writes() -> None:
-    kept, now = (_form(json.loads(text)) for text in (FIXTURE.read_text(), _fixture()))
+@pytest.mark.parametrize("path", FIXTURES)
+def test_what_the_front_end_is_tested_with_is_what_python_writes(path: Path) -> None:
+    texts = path.read_text(), _written(FIXTURES[path]())
+    kept, now = (_form(json.loads(text)) for text in texts)
     assert kept == now, f"write it anew: .venv/bin/python {Path(__file__).relative_to(ROOT)}"
 
 
@@ -151,6 +204,7 @@ def test_both_sides_of_the_contract_name_the_same_fields() -> None:
     pairs = {
         "Recording": contract.RecordingJson,
         "Body": contract.BodyJson,
+        "Piece": contract.PieceJson,
         "Frames": contract.FramesJson,
         "Forces": contract.ForcesJson,
         "Series": contract.SeriesJson,
@@ -253,14 +307,14 @@ def test_names_cannot_break_out_of_the_page() -> None:
 
 
 def _template_count(text: str) -> int:
-    return page._template().count(text)
+    return page._template(2).count(text)
 
 
 def test_long_runs_are_thinned_and_say_so() -> None:
     steps = 999
     long = _run(steps)
     whole = long.recording
-    a_frame = 3 * (budget.STATE_BYTES + budget.POSE_BYTES)
+    a_frame = 3 * (budget.STATE_BYTES + budget.POSE_BYTES[2])
     small = budget.bounded(whole, budget.Budget(frames=250 * a_frame, forces=budget.MIB))
     assert len(small.states) == 251
     assert small.steps is not None
@@ -281,7 +335,7 @@ def test_long_runs_are_thinned_and_say_so() -> None:
 
 def test_too_many_forces_are_kept_of_every_few_frames() -> None:
     recording = _run(99).recording
-    small = budget.bounded(recording, budget.Budget(forces=34 * budget.FORCE_BYTES))
+    small = budget.bounded(recording, budget.Budget(forces=34 * budget.FORCE_BYTES[2]))
     forces = small.to_json()["forces"]
     assert forces is not None
     assert unpacked(forces["frames"]).tolist() == list(range(0, 100, 3))
@@ -395,6 +449,10 @@ def test_the_command_line_writes_the_page(cli: Callable[..., Ran], tmp_path: Pat
     refused = cli("plan", "column:5", "-o", tmp_path / "plan.gif")
     assert refused.status == 2
     assert ".svg, .png or .html" in refused.err
+    column = tmp_path / "column.json"
+    ds.scenes.column(5).extruded().save(column)
+    assert cli("plan", column, "-o", tmp_path / "space.html").status == 0
+    assert _embedded((tmp_path / "space.html").read_text())["dimension"] == 3
     assert cli("check", "column:5", "-o", tmp_path / "check.html").status == 2
 
 
@@ -414,4 +472,5 @@ def test_progress_is_told_and_its_errors_reach_the_caller() -> None:
 
 
 if __name__ == "__main__":
-    FIXTURE.write_text(_fixture())
+    for path, scene in FIXTURES.items():
+        path.write_text(_written(scene()))

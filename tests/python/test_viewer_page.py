@@ -315,10 +315,10 @@ def test_within_a_notebook(opened: Opener, plan: ds.Plan) -> None:
 
 
 def test_damage_is_said_in_one_line(opened: Opener, plan: ds.Plan) -> None:
-    broken = plan.view().html().replace('"version":1', '"version":9')
+    broken = plan.view().html().replace('"version":2', '"version":9')
     tab = opened(broken)
     alert = tab.locator("[role=alert]").inner_text()
-    assert alert == "The recording has version 9; this page reads version 1."
+    assert alert == "The recording has version 9; this page reads version 2."
 
 
 def test_names_are_text_and_never_markup(opened: Opener) -> None:

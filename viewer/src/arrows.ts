@@ -20,7 +20,7 @@ export function forceScale(film: Film): number {
 }
 
 /** A force as it acts on the body that is carried: against gravity. */
-export function carrying(force: Force, gravity: [number, number]): [number, number] {
+export function carrying(force: Force, gravity: number[]): [number, number] {
     const down = force.fx * gravity[0] + force.fy * gravity[1] > 0;
     return down ? [-force.fx, -force.fy] : [force.fx, force.fy];
 }

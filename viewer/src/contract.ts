@@ -1,5 +1,5 @@
 /**
- * What a page is given: a recording, as JSON. Version 1.
+ * What a page is given: a recording, as JSON. Version 2.
  *
  * `python/drystone/viewer/contract.py` is the same contract for the side that writes it. Units are
  * SI: metres, kilograms, seconds, radians, newtons. A reader refuses another version; a new version
@@ -7,18 +7,20 @@
  */
 
 export const FORMAT = "drystone-recording";
-export const VERSION = 1;
+export const VERSION = 2;
 
 export interface Recording {
     format: typeof FORMAT;
     version: typeof VERSION;
     /** An order of removal, or a motion in time. */
     kind: "plan" | "run";
+    /** Of the space that bodies are in. A vector has so many numbers. */
+    dimension: 2 | 3;
     title: string;
     /** What the reader has to know, such as what was left out to bound the page's size. */
     notes: string[];
     /** m/s^2 */
-    gravity: [number, number];
+    gravity: number[];
     /** Everything below names bodies by their index here. */
     bodies: Body[];
     frames: Frames;
@@ -33,14 +35,27 @@ export interface Body {
     fixed: boolean;
     /** kg */
     mass: number;
-    /** kg/m^2 */
+    /** kg/m^2, in space kg/m^3 */
     density: number;
     /** The body's own coefficient of friction. */
     friction: number;
-    /** Corners about the centroid, m, counter-clockwise. */
-    vertices: [number, number][];
-    /** x, y (m) of the centroid and turn (rad, counter-clockwise): where the body is without poses. */
-    pose: [number, number, number];
+    /** In the plane: corners about the centroid, m, counter-clockwise. */
+    vertices: [number, number][] | null;
+    /** In space: convex pieces, which may touch. */
+    pieces: Piece[] | null;
+    /**
+     * Where the body is without poses. In the plane x, y (m) of the centroid and turn (rad,
+     * counter-clockwise); in space x, y, z of its frame's origin and a unit quaternion w, x, y, z.
+     */
+    pose: number[];
+}
+
+/** A convex polyhedron. */
+export interface Piece {
+    /** Corners in the body's frame, m. */
+    vertices: [number, number, number][];
+    /** Corners of each face, by index, counter-clockwise from outside. */
+    faces: number[][];
 }
 
 export interface Frames {
@@ -49,7 +64,7 @@ export interface Frames {
     steps: Packed | null;
     /** f64 (count), s: when each frame is. Without it the frames are an order, not a motion. */
     times: Packed | null;
-    /** f32 (count, bodies, 3): x, y, turn. Without it every body stays at its own pose. */
+    /** f32 (count, bodies, 3 or 7), as `Body.pose`. Without it every body stays at its own pose. */
     poses: Packed | null;
     /** u8 (count, bodies), see `State`. */
     states: Packed;
@@ -80,9 +95,9 @@ export interface Forces {
     offsets: Packed;
     /** u32 (2, m): the body that pushes, and the one that is pushed. */
     bodies: Packed;
-    /** f32 (2, m), m: x row, y row. */
+    /** f32 (dimension, m), m: x row, y row, z row. */
     points: Packed;
-    /** f32 (2, m), N, on the second body: x row, y row. */
+    /** f32 (dimension, m), N, on the second body. */
     vectors: Packed;
 }
 

@@ -29,22 +29,31 @@ function tally(film: Film, frame: number, state: State): number {
 export function facts(film: Film, frame: number, body: number): [string, string][] {
     const { fixed, mass, density, friction } = film.bodies[body];
     const rows: [string, string][] = [["state", stateOf(film, frame, body)]];
-    if (!fixed) rows.push(["mass", `${figures(mass)} kg (${figures(density)} kg/m²)`]);
+    const power = film.dimension === 3 ? "³" : "²";
+    if (!fixed) rows.push(["mass", `${figures(mass)} kg (${figures(density)} kg/m${power})`]);
     rows.push(["friction", figures(friction)]);
     if (film.kind === "run" && film.state(frame, body) !== State.absent) {
-        const [x, y, turn] = film.pose(frame, body);
-        rows.push(["centroid", `${figures(x)}, ${figures(y)} m`]);
-        rows.push(["turn", `${figures((turn * 180) / Math.PI, 3)}°`]);
+        const pose = [...film.pose(frame, body)];
+        const at = pose.slice(0, film.dimension).map((value) => figures(value));
+        rows.push(["centroid", `${at.join(", ")} m`]);
+        rows.push(["turn", `${figures((turn(pose) * 180) / Math.PI, 3)}°`]);
     }
     const forces = film.forces(frame)?.filter(({ a, b }) => a === body || b === body) ?? [];
     if (forces.length > 0) {
-        const largest = Math.max(...forces.map(({ fx, fy }) => Math.hypot(fx, fy)));
+        const largest = Math.max(...forces.map(({ fx, fy, fz }) => Math.hypot(fx, fy, fz)));
         rows.push([
             "pushed by",
             `${counted(forces.length, "force")}, up to ${figures(largest, 3)} N`,
         ]);
     }
     return rows;
+}
+
+/** How far a body is turned, radians; in space about whichever axis that is. */
+function turn(pose: number[]): number {
+    if (pose.length === 3) return pose[2];
+    const [w, ...axis] = pose.slice(3);
+    return 2 * Math.atan2(Math.hypot(...axis), Math.abs(w));
 }
 
 function stateOf(film: Film, frame: number, body: number): string {

@@ -18,27 +18,30 @@ export interface FilmArrays {
     series: Float32Array[];
 }
 
-/** One contact force, N, on body `b`. */
+/** One contact force, N, on body `b`. In the plane z and fz are 0. */
 export interface Force {
     a: number;
     b: number;
     x: number;
     y: number;
+    z: number;
     fx: number;
     fy: number;
+    fz: number;
 }
 
 export class Film {
     readonly kind: Recording["kind"];
     readonly title: string;
     readonly notes: string[];
-    readonly gravity: [number, number];
+    readonly dimension: 2 | 3;
+    readonly gravity: number[];
     readonly bodies: Body[];
     readonly count: number;
-    /** Width and height of each body in its own frame, m. */
-    readonly sizes: [number, number][];
+    /** Width and height (and depth) of each body in its own frame, m. */
+    readonly sizes: number[][];
     readonly series: { name: string; unit: string; values: Float32Array }[];
-    /** The median over movable bodies of the square root of the area of the bounding box, m. */
+    /** The median over movable bodies of the mean side (geometric) of the bounding box, m. */
     readonly typicalSize: number;
     private readonly arrays: FilmArrays;
     private readonly captions: [number, string][];
@@ -47,13 +50,16 @@ export class Film {
         this.kind = recording.kind;
         this.title = recording.title;
         this.notes = recording.notes;
+        this.dimension = recording.dimension;
         this.gravity = recording.gravity;
         this.bodies = recording.bodies;
         this.count = recording.frames.count;
         this.captions = recording.frames.captions;
-        this.sizes = this.bodies.map(({ vertices }) => [spread(vertices, 0), spread(vertices, 1)]);
+        this.sizes = this.bodies.map(({ vertices, pieces }) =>
+            extent(vertices ?? (pieces ?? []).flatMap((piece) => piece.vertices)),
+        );
         const movable = this.sizes.filter((_, body) => !this.bodies[body].fixed);
-        const sides = movable.map(([width, height]) => Math.sqrt(width * height));
+        const sides = movable.map(meanSide);
         this.typicalSize = sides.sort((a, b) => a - b)[sides.length >> 1] ?? 1;
         this.arrays = arrays;
         this.series = recording.series.map(({ name, unit }, k) => ({
@@ -76,17 +82,18 @@ export class Film {
         return this.arrays.states[frame * this.bodies.length + body] as State;
     }
 
-    /** x, y and turn of a body. */
-    pose(frame: number, body: number): [number, number, number] {
+    /** Where a body is, as `Body.pose`. */
+    pose(frame: number, body: number): ArrayLike<number> & Iterable<number> {
         const { poses } = this.arrays;
-        if (!poses) return this.bodies[body].pose;
-        const at = 3 * (frame * this.bodies.length + body);
-        return [poses[at], poses[at + 1], poses[at + 2]];
+        const own = this.bodies[body].pose;
+        if (!poses) return own;
+        const at = own.length * (frame * this.bodies.length + body);
+        return poses.subarray(at, at + own.length);
     }
 
-    /** Corners of a body in the world, as x, y, x, y, ... */
+    /** Corners of a body in the plane, as x, y, x, y, ... */
     corners(frame: number, body: number): number[] {
-        const { vertices } = this.bodies[body];
+        const vertices = this.bodies[body].vertices ?? [];
         const [x, y, turn] = this.pose(frame, body);
         const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
         const corners = new Array<number>(2 * vertices.length);
@@ -113,16 +120,20 @@ export class Film {
         const { forces } = this.arrays;
         if (!forces || this.forcesFrame(frame) !== frame) return null;
         const k = lastUpTo(forces.frames, frame);
-        const m = forces.points.length / 2;
+        const { points, vectors } = forces;
+        const m = points.length / this.dimension;
+        const deep = this.dimension === 3;
         const found: Force[] = [];
         for (let i = forces.offsets[k]; i < forces.offsets[k + 1]; i++) {
             found.push({
                 a: forces.bodies[i],
                 b: forces.bodies[m + i],
-                x: forces.points[i],
-                y: forces.points[m + i],
-                fx: forces.vectors[i],
-                fy: forces.vectors[m + i],
+                x: points[i],
+                y: points[m + i],
+                z: deep ? points[2 * m + i] : 0,
+                fx: vectors[i],
+                fy: vectors[m + i],
+                fz: deep ? vectors[2 * m + i] : 0,
             });
         }
         return found;
@@ -131,8 +142,21 @@ export class Film {
     /** Magnitudes of all forces in the recording, N. */
     magnitudes(): Float32Array {
         const vectors = this.arrays.forces?.vectors ?? new Float32Array();
-        const m = vectors.length / 2;
-        return Float32Array.from({ length: m }, (_, i) => Math.hypot(vectors[i], vectors[m + i]));
+        const m = vectors.length / this.dimension;
+        const z = this.dimension === 3 ? (i: number) => vectors[2 * m + i] : () => 0;
+        return Float32Array.from({ length: m }, (_, i) =>
+            Math.hypot(vectors[i], vectors[m + i], z(i)),
+        );
+    }
+
+    /** The most forces that a frame has. */
+    mostForces(): number {
+        const offsets = this.arrays.forces?.offsets ?? new Uint32Array();
+        let most = 0;
+        for (let k = 1; k < offsets.length; k++) {
+            most = Math.max(most, offsets[k] - offsets[k - 1]);
+        }
+        return most;
     }
 
     /** What is said about a frame, if the recording says anything. */
@@ -155,9 +179,16 @@ export class Film {
     }
 }
 
-function spread(vertices: [number, number][], axis: 0 | 1): number {
-    const values = vertices.map((vertex) => vertex[axis]);
-    return Math.max(...values) - Math.min(...values);
+/** Sides of the box around some points. */
+function extent(points: number[][]): number[] {
+    return (points[0] ?? []).map((_, axis) => {
+        const values = points.map((point) => point[axis]);
+        return Math.max(...values) - Math.min(...values);
+    });
+}
+
+function meanSide(sides: number[]): number {
+    return sides.reduce((product, side) => product * side, 1) ** (1 / sides.length);
 }
 
 /** Index of the last of some ascending numbers that is not above `value`, -1 for none. */

@@ -4,7 +4,7 @@ import { carrying, forceScale, roundBelow } from "../src/arrows.ts";
 import { filmOf, planRecording, runRecording } from "./fixture.ts";
 
 test("forces are drawn as they act on the body that is carried", () => {
-    const force = { a: 0, b: 1, x: 0, y: 0, fx: 1, fy: -2 };
+    const force = { a: 0, b: 1, x: 0, y: 0, z: 0, fx: 1, fy: -2, fz: 0 };
     assert.deepEqual(carrying(force, [0, -9.81]), [-1, 2]);
     assert.deepEqual(carrying({ ...force, fy: 2 }, [0, -9.81]), [1, 2]);
 });

@@ -27,8 +27,9 @@ const SQUARE: [number, number][] = [
 ];
 
 function body(name: string, y: number, fixed = false) {
-    const pose: [number, number, number] = [0, y, 0];
-    return { name, fixed, mass: 2, density: 2, friction: 0.5, vertices: SQUARE, pose };
+    const pose = [0, y, 0];
+    const shape = { vertices: SQUARE, pieces: null };
+    return { name, fixed, mass: 2, density: 2, friction: 0.5, ...shape, pose };
 }
 
 /** Two squares on the ground: "top" is taken away, then "low". Forces of frames 0 and 2 only. */
@@ -36,8 +37,9 @@ export function planRecording(): Recording {
     const { present, next, absent } = State;
     return {
         format: "drystone-recording",
-        version: 1,
+        version: 2,
         kind: "plan",
+        dimension: 2,
         title: "Two squares",
         notes: [],
         gravity: [0, -9.81],

@@ -11,7 +11,10 @@ test("states, forces and captions of a plan arrive", async () => {
     assert.equal(film.count, 3);
     assert.equal(film.state(0, 2), State.next);
     assert.equal(film.state(1, 2), State.absent);
-    assert.deepEqual(film.forces(0)?.[1], { a: 2, b: 1, x: 0.25, y: 1, fx: 3, fy: -4 });
+    assert.deepEqual(film.forces(0)?.[1], {
+        ...{ a: 2, b: 1, x: 0.25, y: 1, z: 0 },
+        ...{ fx: 3, fy: -4, fz: 0 },
+    });
     assert.equal(film.forces(1), null, "not kept");
     assert.equal(film.forcesFrame(1), 0, "but those of the frame before are");
     assert.deepEqual(film.forces(2), [], "none there");
@@ -48,7 +51,7 @@ test("what Python writes is read", async () => {
 test("another version, another format and damage are refused in words", async () => {
     const plan = planRecording();
     const bad = (change: object) => unpack(JSON.stringify({ ...plan, ...change }));
-    await assert.rejects(bad({ version: 2 }), /version 2; this page reads version 1/);
+    await assert.rejects(bad({ version: 1 }), /version 1; this page reads version 2/);
     await assert.rejects(bad({ format: "other" }), /no recording/);
     const short = { ...plan.frames, states: packed(new Uint8Array(8), [3, 3]) };
     await assert.rejects(bad({ frames: short }), /cut short/);

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.canvas import Canvas, bounds, fitted
+from drystone.pictures.frames import REACH, fills_in, note_of, reference_force, sampled
+from drystone.pictures.recording_in_space import solid_frame
 from drystone.pictures.shapes import (
     draw_absent,
     draw_blocks,
@@ -20,24 +22,11 @@ from drystone.pictures.shapes import (
     typical_size,
 )
 from drystone.scene import Body
-from drystone.viewer.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT
+from drystone.viewer.contract import ABSENT
 from drystone.viewer.recording import FrameForces, Recording, own_frame
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-FILLS = {
-    PRESENT: style.STONE,
-    MOTIONLESS: style.STILL,
-    NEXT: style.NEXT,
-    FALLING: style.FALLING,
-}
-SAMPLES = 50
-"""Frames looked at for the view."""
-REACH = 0.5
-"""How far bodies that move away may widen the view, in the size of the first frame."""
-FEW = 0.99
-"""The share of forces that are no longer than a block: an impact may be far beyond."""
 
 
 def frame_figure(recording: Recording, frame: int) -> Figure:
@@ -45,14 +34,11 @@ def frame_figure(recording: Recording, frame: int) -> Figure:
     frames = len(recording.states)
     if not 0 <= frame < frames:
         raise IndexError(f"frame {frame}: there are frames 0 to {frames - 1}")
+    if recording.dimension == 3:
+        return solid_frame(recording, frame)
     bodies = _moved(recording, frame)
-    states = recording.states[frame]
-    canvas = fitted(_view(recording), recording.title, _note(recording, frame), key=True)
-    fills = {
-        body.name: FILLS[state]
-        for body, state in zip(bodies, states.tolist(), strict=True)
-        if state != ABSENT and not body.fixed
-    }
+    canvas = fitted(_view(recording), recording.title, note_of(recording, frame), key=True)
+    fills = fills_in(recording, frame)
     draw_fixed(canvas, bodies)
     if recording.kind == "plan":
         draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in fills])
@@ -65,13 +51,12 @@ def frame_figure(recording: Recording, frame: int) -> Figure:
 
 def _moved(recording: Recording, frame: int) -> list[Body]:
     """The bodies where the frame has them."""
+    bodies = cast("Sequence[Body]", recording.bodies)
     if recording.poses is None:
-        return list(recording.bodies)
+        return list(bodies)
     return [
         replace(body, centroid=(x, y), angle=angle, vertices=_placed(body, x, y, angle))
-        for body, (x, y, angle) in zip(
-            recording.bodies, recording.poses[frame].tolist(), strict=True
-        )
+        for body, (x, y, angle) in zip(bodies, recording.poses[frame].tolist(), strict=True)
     ]
 
 
@@ -90,34 +75,25 @@ def _view(recording: Recording) -> list[Body]:
         return first
     low, high = bounds(shown)
     reach = REACH * float(np.max(high - low))
-    frames = np.unique(np.linspace(0, len(recording.states) - 1, SAMPLES).astype(int))
     later = [
         replace(body, vertices=np.clip(body.vertices, low - reach, high + reach))
-        for frame in frames.tolist()
+        for frame in sampled(recording)
         for body, state in zip(_moved(recording, frame), recording.states[frame], strict=True)
         if not body.fixed and state != ABSENT
     ]
     return first + later
 
 
-def _note(recording: Recording, frame: int) -> str:
-    step = frame if recording.steps is None else int(recording.steps[frame])
-    when = "" if recording.times is None else f"{recording.times[frame]:.3f} s, "
-    said = [text for at, text in recording.captions if at <= frame]
-    return f"{when}step {step}" + (f". {said[-1]}" if said else "")
-
-
 def _draw_forces(canvas: Canvas, recording: Recording, forces: FrameForces, frame: int) -> None:
     """Each once, as it acts on the body that is carried: against gravity."""
-    every = np.hypot(*np.asarray(forces.vectors, dtype=np.float64).reshape(-1, 2).T)
     span = slice(*np.asarray(forces.offsets)[frame : frame + 2].tolist())
     points = np.asarray(forces.points, dtype=np.float64)[span]
     vectors = np.array(forces.vectors, dtype=np.float64)[span]
     if len(vectors) == 0:
         return
     vectors[vectors @ np.asarray(recording.gravity) > 0] *= -1
-    blocks: Sequence[Body] = [body for body in recording.bodies if not body.fixed]
-    reference = float(np.quantile(every, FEW)) or float(np.max(every)) or 1.0
+    bodies = cast("Sequence[Body]", recording.bodies)
+    blocks = [body for body in bodies if not body.fixed]
     peak = float(np.max(np.hypot(*vectors.T)))
-    longest = 1.1 * typical_size(blocks) * peak / reference
+    longest = 1.1 * typical_size(blocks) * peak / reference_force(forces)
     draw_arrows(canvas, points, vectors, longest, "N", style.FORCE)

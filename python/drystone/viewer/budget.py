@@ -17,8 +17,12 @@ from numpy.typing import NDArray
 from drystone.viewer.recording import FrameForces, Recording, Series, rows_of
 
 MIB = 1 << 20
-STATE_BYTES, POSE_BYTES, FORCE_BYTES = 1, 12, 24
-"""Of a body in a frame, and of one force, before they are deflated."""
+STATE_BYTES = 1
+"""Of a body in a frame, before it is deflated, like the others here."""
+POSE_BYTES = {2: 12, 3: 28}
+"""Of a body in a frame, by dimension."""
+FORCE_BYTES = {2: 24, 3: 32}
+"""Of one force, by dimension."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +47,8 @@ def bounded(recording: Recording, budget: Budget) -> Recording:
 
 def _with_fewer_frames(recording: Recording, most: int) -> Recording:
     frames, bodies = recording.states.shape
-    a_frame = bodies * (STATE_BYTES + (0 if recording.poses is None else POSE_BYTES))
+    pose = 0 if recording.poses is None else POSE_BYTES[recording.dimension]
+    a_frame = bodies * (STATE_BYTES + pose)
     every = ceil(frames * a_frame / most)
     if every <= 1:
         return recording
@@ -72,8 +77,9 @@ def _with_fewer_forces(recording: Recording, most: int) -> Recording:
         return recording
     known = _kept(forces)
     sizes = np.diff(np.asarray(forces.offsets)) * known
+    sizes *= FORCE_BYTES[recording.dimension]
     strides = range(1, len(sizes) + 1)
-    every = next((k for k in strides if int(sizes[::k].sum()) * FORCE_BYTES <= most), None)
+    every = next((k for k in strides if int(sizes[::k].sum()) <= most), None)
     kept = np.zeros_like(known)
     if every is not None:
         kept[::every] = known[::every]

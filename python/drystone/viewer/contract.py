@@ -1,4 +1,4 @@
-"""What a page is given: a recording, as JSON. Version 1.
+"""What a page is given: a recording, as JSON. Version 2.
 
 `viewer/src/contract.ts` is the same contract for the side that reads it, with a word on each field.
 Units are SI: metres, kilograms, seconds, radians, newtons.
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FORMAT: Final = "drystone-recording"
-VERSION: Final = 1
+VERSION: Final = 2
 
 ABSENT = 0
 """Not there: taken away, or not there yet."""
@@ -36,6 +36,13 @@ class Packed(TypedDict):
     data: str
 
 
+class PieceJson(TypedDict):
+    """A convex polyhedron in its body's frame; faces are counter-clockwise from outside."""
+
+    vertices: list[list[float]]
+    faces: list[list[int]]
+
+
 class BodyJson(TypedDict):
     """A body; everything else names bodies by their index."""
 
@@ -44,12 +51,13 @@ class BodyJson(TypedDict):
     mass: float
     density: float
     friction: float
-    vertices: list[list[float]]
+    vertices: list[list[float]] | None
+    pieces: list[PieceJson] | None
     pose: list[float]
 
 
 class FramesJson(TypedDict):
-    """What is where: `states` is u8 (count, bodies), `poses` f32 (count, bodies, 3)."""
+    """What is where: `states` is u8 (count, bodies), `poses` f32 (count, bodies, 3 or 7)."""
 
     count: int
     steps: Packed | None
@@ -83,6 +91,7 @@ class RecordingJson(TypedDict):
     format: str
     version: int
     kind: Literal["plan", "run"]
+    dimension: Literal[2, 3]
     title: str
     notes: list[str]
     gravity: list[float]

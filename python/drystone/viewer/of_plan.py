@@ -136,7 +136,7 @@ def _forces(
     """Of order[k:] in frame k; the bare supports are the last frame."""
     contacts = scene.contacts
     index = {name: body for body, name in enumerate(scene.names)}
-    expected = len(contacts) * len(order) / 2 * budget.FORCE_BYTES
+    expected = len(contacts) * len(order) / 2 * budget.FORCE_BYTES[scene.dimension]
     every = max(1, ceil(expected / (SLACK * budget.FILE.forces)))
     found = _core.forces_along(scene._core, order[::-1], every, progress, cones)
     frames = len(order) - found.blocks[::-1]
@@ -147,7 +147,8 @@ def _forces(
     kept[-1] = True
     rows = rows_of(found.offsets[:-1][::-1], np.diff(found.offsets)[::-1])
     pairs = np.array([[index[c.a], index[c.b]] for c in contacts], dtype=np.int64).reshape(-1, 2)
-    points = np.array([c.point for c in contacts], dtype=np.float64).reshape(-1, 2)
+    points = np.array([c.point for c in contacts], dtype=np.float64)
+    points = points.reshape(-1, scene.dimension)
     at = found.contact[rows]
     offsets = np.concatenate([[0], np.cumsum(counts)])
     return FrameForces(offsets, pairs[at], points[at], found.force[rows], kept)
@@ -158,7 +159,8 @@ def _fallen(plan: Plan, whole: Verdict, headline: str) -> Recording:
     names = plan.scene.names
     states = np.full((1, len(names)), PRESENT, dtype=np.uint8)
     states[0, [names.index(name) for name in whole.falling]] = FALLING
-    vectors = np.array([force.force for force in whole.forces]).reshape(-1, 2)
+    dimension = plan.scene.dimension
+    vectors = np.array([force.force for force in whole.forces]).reshape(-1, dimension)
     return Recording(
         kind="plan",
         title=headline,
@@ -168,7 +170,7 @@ def _fallen(plan: Plan, whole: Verdict, headline: str) -> Recording:
         forces=FrameForces(
             [0, len(vectors)],
             np.array([[names.index(f.a), names.index(f.b)] for f in whole.forces]).reshape(-1, 2),
-            np.array([force.point for force in whole.forces]).reshape(-1, 2),
+            np.array([force.point for force in whole.forces]).reshape(-1, dimension),
             vectors,
         ),
         captions=[(0, str(whole).partition("; ")[0] + ".")],

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from drystone.viewer.contract import ABSENT, MOTIONLESS, PRESENT
-from drystone.viewer.recording import FrameForces, Recording, Series
+from drystone.viewer.recording import POSE, FrameForces, Recording, Series
 
 if TYPE_CHECKING:
     from drystone.scene import Scene
@@ -32,7 +32,8 @@ def run_recording(
     """The arrays of a run of `steps` steps, bodies in the order of `scene.bodies`.
 
     `times` is (steps + 1,), s. `poses` is (steps + 1, bodies, 3): x and y of the centroid (m) and
-    the angle (rad, as `Body.angle`); a body that is not there in a frame has NaN. `motionless` is
+    the angle (rad, as `Body.angle`); in space (steps + 1, bodies, 7): position (m) and orientation
+    (a unit quaternion w, x, y, z). A body that is not there in a frame has NaN. `motionless` is
     (steps + 1, bodies), or (steps, bodies) if it is found in the steps: the first frame then shows
     what the first step found. `pivots` and `solve_seconds` are (steps,), and so are the values of
     further `series`. `forces` has steps + 1 frames, and `captions` are (frame, text).
@@ -41,8 +42,11 @@ def run_recording(
     """
     at = np.asarray(poses, dtype=np.float64)
     bodies = len(scene)
-    if at.ndim != 3 or at.shape[0] == 0 or at.shape[1:] != (bodies, 3):
-        raise ValueError(f"poses has the shape {at.shape}: it must be (steps + 1, {bodies}, 3)")
+    pose = POSE[scene.dimension]
+    if at.ndim != 3 or at.shape[0] == 0 or at.shape[1:] != (bodies, pose):
+        raise ValueError(
+            f"poses has the shape {at.shape}: it must be (steps + 1, {bodies}, {pose})"
+        )
     steps = len(at) - 1
     charts = [
         Series("pivots per step", pivots),

@@ -36,13 +36,14 @@ class Page:
     def html(self, limit: budget.Budget = budget.FILE) -> str:
         """The text of the page."""
         recording = budget.bounded(self.recording, limit)
+        template = _template(recording.dimension)
         data = json.dumps(recording.to_json(), separators=(",", ":"), allow_nan=False)
         parts = {
             "title": escape(recording.title),
             # Within a script element only this character could end it.
             "recording": data.replace("<", "\\u003c"),
         }
-        return re.sub(r"\{\{(title|recording)\}\}", lambda found: parts[found[1]], _template())
+        return re.sub(r"\{\{(title|recording)\}\}", lambda found: parts[found[1]], template)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the page; the name ends in .html. The file is replaced whole or not at all."""
@@ -86,10 +87,11 @@ class Page:
 
 
 @cache
-def _template() -> str:
+def _template(dimension: int) -> str:
     """The bundle, which `make build` and every wheel put beside this file."""
+    name = "space.html" if dimension == 3 else "page.html"
     try:
-        return files("drystone.viewer").joinpath("page.html").read_text(encoding="utf-8")
+        return files("drystone.viewer").joinpath(name).read_text(encoding="utf-8")
     except FileNotFoundError:
         raise _core.DrystoneError(
             "the viewer's page is not built: run `make build` in the source tree"

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drystone.scene import Body, Solid
 from drystone.viewer.contract import (
     FORMAT,
     VERSION,
     BodyJson,
     ForcesJson,
+    PieceJson,
     RecordingJson,
     SeriesJson,
     packed,
 )
 
-if TYPE_CHECKING:
-    from drystone.scene import Body
+POSE = {2: 3, 3: 7}
+"""Numbers of a pose, by dimension."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,9 +37,9 @@ class FrameForces:
     bodies: ArrayLike
     """(forces, 2): indices of the body that pushes and of the one that is pushed."""
     points: ArrayLike
-    """(forces, 2): where, m."""
+    """(forces, dimension): where, m."""
     vectors: ArrayLike
-    """(forces, 2): the force on the second body, N."""
+    """(forces, dimension): the force on the second body, N."""
     kept: ArrayLike | None = None
     """(frames,) bool: whose forces are known. By default every frame's are."""
 
@@ -46,8 +48,10 @@ class FrameForces:
         total = int(offsets[-1]) if offsets.ndim == 1 and len(offsets) > 0 else -1
         if total < 0 or offsets[0] != 0 or np.any(np.diff(offsets) < 0):
             raise ValueError("offsets must be (frames + 1,), ascending from 0")
-        for name in ("bodies", "points", "vectors"):
-            _shaped(getattr(self, name), (total, 2), name)
+        _shaped(self.bodies, (total, 2), "bodies")
+        dimension = 3 if np.shape(self.vectors)[1:] == (3,) else 2
+        for name in ("points", "vectors"):
+            _shaped(getattr(self, name), (total, dimension), name)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,13 +76,15 @@ class Recording:
 
     kind: Literal["plan", "run"]
     title: str
-    bodies: Sequence[Body]
-    """Fixed ones included."""
+    bodies: Sequence[Body | Solid]
+    """Fixed ones included; solids where gravity has three numbers."""
     states: NDArray[np.uint8]
     """(frames, bodies): `ABSENT`, `PRESENT`, `MOTIONLESS`, `NEXT` or `FALLING` of the contract."""
     gravity: tuple[float, ...] = (0.0, -9.81)
+    """m/s^2: in the plane two numbers, in space three."""
     poses: NDArray[np.float64] | None = None
-    """(frames, bodies, 3): x, y (m) and angle (rad, as `Body.angle`). None: nothing moves."""
+    """(frames, bodies, 3): x, y (m) and angle (rad, as `Body.angle`); in space (frames, bodies, 7):
+    x, y, z (m) and a unit quaternion w, x, y, z. None: nothing moves."""
     times: NDArray[np.float64] | None = None
     """(frames,), s, ascending."""
     steps: NDArray[np.int64] | None = None
@@ -90,12 +96,18 @@ class Recording:
     notes: Sequence[str] = field(default=())
     """Lines under the picture."""
 
+    @property
+    def dimension(self) -> Literal[2, 3]:
+        """Of the space that the bodies are in."""
+        return 3 if len(self.gravity) == 3 else 2
+
     def __post_init__(self) -> None:
         frames, bodies = len(self.states), len(self.bodies)
+        pose = POSE[self.dimension]
         _shaped(self.states, (frames, bodies), "states")
         if frames == 0:
             raise ValueError("a recording has at least one frame")
-        for name, shape in (("poses", (frames, bodies, 3)), ("times", (frames,))):
+        for name, shape in (("poses", (frames, bodies, pose)), ("times", (frames,))):
             if getattr(self, name) is not None:
                 _finite(_shaped(getattr(self, name), shape, name), name)
         if self.times is not None and np.any(np.diff(self.times) < 0):
@@ -104,6 +116,8 @@ class Recording:
             _shaped(self.steps, (frames,), "steps")
         if self.forces is not None:
             _shaped(self.forces.offsets, (frames + 1,), "offsets of the forces")
+            total = len(np.asarray(self.forces.bodies))
+            _shaped(self.forces.vectors, (total, self.dimension), "vectors of the forces")
             _finite(np.asarray(self.forces.vectors), "vectors of the forces")
         for one in self.series:
             _shaped(one.values, (frames,), one.name)
@@ -114,6 +128,7 @@ class Recording:
             "format": FORMAT,
             "version": VERSION,
             "kind": self.kind,
+            "dimension": self.dimension,
             "title": self.title,
             "notes": list(self.notes),
             "gravity": list(self.gravity),
@@ -146,16 +161,32 @@ def rows_of(starts: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.
     return rows
 
 
-def _body(body: Body) -> BodyJson:
+def _body(body: Body | Solid) -> BodyJson:
+    pose = (
+        (*body.centroid, body.angle)
+        if isinstance(body, Body)
+        else (*body.centroid, *body.orientation)
+    )
     return {
         "name": body.name,
         "fixed": body.fixed,
         "mass": body.mass,
         "density": body.density,
         "friction": body.friction,
-        "vertices": own_frame(body).tolist(),
-        "pose": [*body.centroid, body.angle],
+        "vertices": own_frame(body).tolist() if isinstance(body, Body) else None,
+        "pieces": None if isinstance(body, Body) else _pieces(body),
+        "pose": [float(value) for value in pose],
     }
+
+
+def _pieces(body: Solid) -> list[PieceJson]:
+    return [
+        {
+            "vertices": piece.vertices.tolist(),
+            "faces": [list(face) for face in piece.faces],
+        }
+        for piece in body.pieces
+    ]
 
 
 def _forces(forces: FrameForces) -> ForcesJson:

@@ -1,0 +1,57 @@
+/** Which body a ray meets first. */
+import { type Matrix4, type Plane, Ray } from "three";
+import { State } from "../contract.ts";
+import type { Film } from "../film.ts";
+import type { Explode } from "./explode.ts";
+import { type Half, halvesOf, within } from "./hull.ts";
+
+export class Picking {
+    private readonly film: Film;
+    private readonly explode: Explode;
+    /** The half-spaces of the pieces of each body, in its own frame. */
+    private readonly halves: Half[][][];
+    /** From the world to each body's frame, as drawn in `at`: names ask for all of them, often. */
+    private inverses: Matrix4[] = [];
+    private at = "";
+
+    constructor(film: Film, explode: Explode) {
+        this.film = film;
+        this.explode = explode;
+        this.halves = film.bodies.map(({ pieces }) => (pieces ?? []).map(halvesOf));
+    }
+
+    /** The body seen first, of those that are there and of what the section keeps; -1 for none. */
+    bodyAt(frame: number, ray: Ray, section: Plane | null): number {
+        this.renew(frame);
+        let [nearest, found] = [Infinity, -1];
+        for (let body = 0; body < this.film.bodies.length; body++) {
+            if (this.film.state(frame, body) === State.absent) continue;
+            const distance = this.distance(body, ray, section);
+            if (distance < nearest) [nearest, found] = [distance, body];
+        }
+        return found;
+    }
+
+    /** How far along the ray a body begins, in lengths of its direction; Infinity if it is missed. */
+    private distance(body: number, ray: Ray, section: Plane | null): number {
+        const inverse = this.inverses[body];
+        const own = new Ray().copy(ray).applyMatrix4(inverse);
+        const kept = section ? [keptBy(section.clone().applyMatrix4(inverse))] : [];
+        const spans = this.halves[body].map((piece) => within(own, [...piece, ...kept]));
+        return Math.min(...spans.map((span) => (span && span[1] > 0 ? span[0] : Infinity)));
+    }
+
+    private renew(frame: number): void {
+        const at = `${frame} ${this.explode.factor}`;
+        if (at === this.at) return;
+        this.at = at;
+        this.inverses = this.film.bodies.map((_, body) =>
+            this.explode.placed(frame, body).invert(),
+        );
+    }
+}
+
+/** The side of a plane that three.js keeps when it clips: where the normal points. */
+function keptBy({ normal, constant }: Plane): Half {
+    return { normal: normal.clone().negate(), offset: constant };
+}
