@@ -28,7 +28,7 @@ test("the first view holds everything, and hardly more", async () => {
     const { made, shown } = await orbit();
     const [x, y] = reach(made, shown);
     assert.ok(x <= 1 && y <= 1);
-    assert.ok(Math.max(x, y) > 0.8);
+    assert.ok(Math.max(x, y) > 0.9);
 });
 
 test("turning keeps the distance, and up stays up", async () => {
