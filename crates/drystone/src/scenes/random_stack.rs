@@ -28,9 +28,6 @@ const PLACES: usize = 8;
 /// Blocks drawn in search of one that needs a counterweight, before any that stands will do.
 const SEARCH: usize = 8;
 
-/// Blocks drawn at a time.
-const AHEAD: usize = 16;
-
 /// Blocks drawn for one place in the stack before giving up.
 const ATTEMPTS: usize = 500;
 
@@ -70,19 +67,15 @@ pub fn random_stack_where(
 
 /// Which blocks stay where they were dropped.
 trait Rule {
-    /// The blocks that will be asked about next on the same stack.
-    fn expect(&mut self, _placed: &[Placed], _next: &[Option<Placed>]) -> Result<(), SceneError> {
-        Ok(())
-    }
+    /// Whether the stack stands with a block on it.
+    fn stands(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError>;
 
-    /// Whether the stack stands with a block on it: the `index`th of those expected.
-    fn stands(&mut self, placed: &[Placed], block: &Placed, index: usize) -> Result<bool, SceneError>;
+    /// Whether the block just asked about stands on what lies lower than it. If not, it needs a counterweight that lies
+    /// higher.
+    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError>;
 
-    /// Whether the block stands on what lies lower than it. If not, it needs a counterweight that lies higher.
-    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed, index: usize) -> Result<bool, SceneError>;
-
-    /// The block stays.
-    fn keep(&mut self, _index: usize) {}
+    /// The block just asked about stays.
+    fn keep(&mut self) {}
 }
 
 fn drop_blocks(blocks: usize, seed: u64, friction: f64, rule: &mut dyn Rule) -> Result<Scene, SceneError> {
@@ -105,8 +98,7 @@ fn drop_blocks(blocks: usize, seed: u64, friction: f64, rule: &mut dyn Rule) -> 
     Ok(builder.finish())
 }
 
-/// Draws blocks until one stays. They are drawn some at a time, so that what they rest on is put up once for all of
-/// them; the pseudo-random sequence then goes on after the one that stays.
+/// Draws blocks until one stays.
 fn find_place(
     random: &mut Pcg64,
     skyline: &Skyline,
@@ -115,18 +107,12 @@ fn find_place(
     seek_counterweighted: bool,
     rule: &mut dyn Rule,
 ) -> Result<Option<Placed>, SceneError> {
-    for first in (0..ATTEMPTS).step_by(AHEAD) {
-        let draws: Vec<(Option<Placed>, Pcg64)> =
-            (first..ATTEMPTS.min(first + AHEAD)).map(|_| (draw(random, skyline, ground), random.clone())).collect();
-        rule.expect(placed, &draws.iter().map(|(block, _)| *block).collect::<Vec<_>>())?;
-        for (index, (block, after)) in draws.into_iter().enumerate() {
-            let Some(block) = block else { continue };
-            let must_lean = seek_counterweighted && first + index < SEARCH;
-            if rule.stands(placed, &block, index)? && !(must_lean && rule.stands_on_lower(placed, &block, index)?) {
-                rule.keep(index);
-                *random = after;
-                return Ok(Some(block));
-            }
+    for attempt in 0..ATTEMPTS {
+        let Some(block) = draw(random, skyline, ground) else { continue };
+        let must_lean = seek_counterweighted && attempt < SEARCH;
+        if rule.stands(placed, &block)? && !(must_lean && rule.stands_on_lower(placed, &block)?) {
+            rule.keep();
+            return Ok(Some(block));
         }
     }
     Ok(None)
@@ -139,11 +125,11 @@ struct Accepting<F> {
 }
 
 impl<F: FnMut(&Scene) -> bool> Rule for Accepting<F> {
-    fn stands(&mut self, placed: &[Placed], block: &Placed, _index: usize) -> Result<bool, SceneError> {
+    fn stands(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError> {
         Ok((self.accept)(&scene_of(self.ground, placed.iter().chain([block]))?))
     }
 
-    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed, _index: usize) -> Result<bool, SceneError> {
+    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError> {
         let lower = placed.iter().filter(|other| other.is_lower_than(block));
         Ok((self.accept)(&scene_of(self.ground, lower.chain([block]))?))
     }

@@ -319,6 +319,21 @@ impl BasisFactor {
         terms
     }
 
+    /// Changes the number of rows; nothing before can be undone. New rows have their unit columns, and so must those that go.
+    pub fn resize(&mut self, n: usize) {
+        for position in self.stage.len()..n {
+            self.stage.push(self.stages.len() as u32);
+            self.stages.push(Stage::unit(position as u32));
+            self.rows.push(Vec::new());
+            self.work.push(0.0);
+        }
+        self.stage.truncate(n); // the stages stay behind, as those of replaced columns do
+        self.readers.resize(n, Vec::new());
+        self.writers.resize(n, Vec::new());
+        self.group.resize(n, 0);
+        self.undo.clear();
+    }
+
     /// Number of replacements made, to come back to with [`Self::undo_to`].
     pub fn mark(&self) -> usize {
         self.undo.len()

@@ -40,28 +40,59 @@ impl Columns {
                 }
             }
         }
-        let mut row_starts = vec![0; rows + 1];
-        indices.iter().for_each(|&row| row_starts[row + 1] += 1);
-        (0..rows).for_each(|row| row_starts[row + 1] += row_starts[row]);
-        let mut next = row_starts.clone();
-        let mut row_columns = vec![(0, 0.0); indices.len()];
-        for column in 0..indptr.len() - 1 {
-            for p in indptr[column]..indptr[column + 1] {
-                row_columns[next[indices[p]]] = (column as u32, data[p]);
-                next[indices[p]] += 1;
-            }
-        }
-        // Row by row, so that every column has its rows in order, whatever order they came in: sums over them are then
-        // the same for all columns.
-        let mut next = indptr.to_vec();
-        let mut entries = vec![(0, 0.0); indices.len()];
-        for row in 0..rows {
+        let entries = indices.iter().zip(data).map(|(&row, &value)| (row as u32, value)).collect();
+        let (row_starts, row_columns) = (Vec::new(), Vec::new());
+        let mut columns = Self { rows, starts: indptr.to_vec(), entries, row_starts, row_columns };
+        columns.index_rows();
+        columns.order_entries();
+        Ok(columns)
+    }
+
+    /// Row by row, so that every column has its rows in order, whatever order they came in: sums over them are then
+    /// the same for all columns.
+    fn order_entries(&mut self) {
+        let Self { rows, starts, entries, row_starts, row_columns } = self;
+        let mut next = starts.clone();
+        for row in 0..*rows {
             for &(column, value) in &row_columns[row_starts[row]..row_starts[row + 1]] {
                 entries[next[column as usize]] = (row as u32, value);
                 next[column as usize] += 1;
             }
         }
-        Ok(Self { rows, starts: indptr.to_vec(), entries, row_starts, row_columns })
+    }
+
+    /// Lists the columns of every row.
+    fn index_rows(&mut self) {
+        let Self { rows, starts, entries, row_starts, row_columns } = self;
+        row_starts.clear();
+        row_starts.resize(*rows + 1, 0);
+        entries.iter().for_each(|&(row, _)| row_starts[row as usize + 1] += 1);
+        (0..*rows).for_each(|row| row_starts[row + 1] += row_starts[row]);
+        let mut next = row_starts.clone();
+        row_columns.resize(entries.len(), (0, 0.0));
+        for (column, range) in starts.windows(2).enumerate() {
+            for &(row, value) in &entries[range[0]..range[1]] {
+                row_columns[next[row as usize]] = (column as u32, value);
+                next[row as usize] += 1;
+            }
+        }
+    }
+
+    /// Leaves only the first rows and columns, of which none has an entry in a row that goes.
+    pub(super) fn truncate(&mut self, rows: usize, columns: usize) {
+        self.rows = rows;
+        self.starts.truncate(columns + 1);
+        self.entries.truncate(self.starts[columns]);
+        self.index_rows();
+    }
+
+    /// Puts rows and columns behind those that are there.
+    pub(super) fn append(&mut self, more: &Self) {
+        self.rows = more.rows;
+        let entries = self.entries.len();
+        self.starts.extend(more.starts[1..].iter().map(|start| entries + start));
+        self.entries.extend_from_slice(&more.entries);
+        self.index_rows();
     }
 
     /// Number of rows.
@@ -101,12 +132,7 @@ impl Columns {
             column.iter_mut().for_each(|(_, value)| *value *= scale);
             column_scale.push(scale);
         }
-        for (row, &row_scale) in row_scale.iter().enumerate() {
-            for (column, value) in &mut self.row_columns[self.row_starts[row]..self.row_starts[row + 1]] {
-                *value *= row_scale;
-                *value *= column_scale[*column as usize];
-            }
-        }
+        self.index_rows();
         column_scale
     }
 }

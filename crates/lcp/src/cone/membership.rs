@@ -8,6 +8,7 @@
 
 mod bearing;
 mod checking;
+mod growing;
 mod keeping;
 mod leaving;
 mod phase_one;
@@ -72,6 +73,8 @@ pub struct Mark {
     rebuilds: usize,
     behind: bool,
     feasible: bool,
+    /// Times rows and columns had come to the problem or gone from it.
+    shape: usize,
 }
 
 /// Decides `h in cone(G)` on growing and shrinking sets of rows. A column takes part once all its rows are present.
@@ -127,6 +130,7 @@ pub struct ConeSolver {
     /// Values overwritten since the last mark, to restore it exactly.
     overwritten: Vec<(u32, f64)>,
     last_mark: Option<Mark>,
+    shape: usize,
     residual: f64,
     counts: Counts,
     /// The last pivots showed that digits were lost.
@@ -182,16 +186,7 @@ impl ConeSolver {
     /// [`LcpError::Structure`] if lengths differ or a unit is not positive, [`LcpError::VectorNotFinite`].
     pub fn new(mut g: Columns, h: &[f64], unit: &[f64]) -> Result<Self, LcpError> {
         let (m, n) = (g.rows(), g.len());
-        if h.len() != m || unit.len() != m {
-            let reason = format!("G has {m} rows, h has {} and the units have {}", h.len(), unit.len());
-            return Err(LcpError::Structure { reason });
-        }
-        if let Some(index) = h.iter().position(|value| !value.is_finite()) {
-            return Err(LcpError::VectorNotFinite { index, value: h[index] });
-        }
-        if let Some(row) = unit.iter().position(|&unit| unit.is_nan() || unit <= 0.0 || unit.is_infinite()) {
-            return Err(LcpError::Structure { reason: format!("the unit of row {row} is {}", unit[row]) });
-        }
+        check(m, h, unit)?;
         let row_scale: Vec<f64> = unit.iter().map(|unit| unit.recip()).collect();
         let column_scale = g.scale(&row_scale);
         let missing = (0..n as u32).map(|j| g.column(j).len() as u32).collect();
@@ -231,6 +226,7 @@ impl ConeSolver {
             marked: false,
             overwritten: Vec::new(),
             last_mark: None,
+            shape: 0,
             residual: 0.0,
             counts: Counts::default(),
             shaky: false,
@@ -252,6 +248,11 @@ impl ConeSolver {
     /// Largest imbalance of a present row in the last solution, in the row's unit.
     pub fn residual(&self) -> f64 {
         self.residual
+    }
+
+    /// Number of columns of the problem.
+    pub fn columns(&self) -> usize {
+        self.g.len()
     }
 
     /// Numbers stored in the factor.
@@ -357,6 +358,21 @@ impl ConeSolver {
             }
             self.recompute_values();
         }
+    }
+}
+
+/// One finite entry of `h` and one positive unit for each row.
+fn check(rows: usize, h: &[f64], unit: &[f64]) -> Result<(), LcpError> {
+    if h.len() != rows || unit.len() != rows {
+        let reason = format!("G has {rows} rows, h has {} and the units have {}", h.len(), unit.len());
+        return Err(LcpError::Structure { reason });
+    }
+    if let Some(index) = h.iter().position(|value| !value.is_finite()) {
+        return Err(LcpError::VectorNotFinite { index, value: h[index] });
+    }
+    match unit.iter().position(|&unit| unit.is_nan() || unit <= 0.0 || unit.is_infinite()) {
+        Some(row) => Err(LcpError::Structure { reason: format!("the unit of row {row} is {}", unit[row]) }),
+        None => Ok(()),
     }
 }
 

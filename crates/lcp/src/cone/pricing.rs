@@ -19,6 +19,11 @@ impl Pricing {
         Self { seen: vec![false; columns], touched: Vec::new(), preferred: 0..0 }
     }
 
+    /// Makes room for so many columns.
+    pub fn resize(&mut self, columns: usize) {
+        self.seen.resize(columns, false);
+    }
+
     /// As long as one of these columns helps no other enters, except by least index.
     pub fn prefer(&mut self, columns: Range<u32>) {
         self.preferred = columns;

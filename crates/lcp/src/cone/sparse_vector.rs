@@ -13,6 +13,13 @@ impl SparseVector {
         Self { value: vec![0.0; n], listed: vec![false; n], index: Vec::new() }
     }
 
+    /// Becomes the zero vector of another length.
+    pub fn resize(&mut self, n: usize) {
+        self.clear();
+        self.value.resize(n, 0.0);
+        self.listed.resize(n, false);
+    }
+
     pub fn get(&self, i: u32) -> f64 {
         self.value[i as usize]
     }

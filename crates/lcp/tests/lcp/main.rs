@@ -6,6 +6,7 @@ mod brute_force;
 mod contact;
 mod cycling;
 mod follow;
+mod growing;
 mod lemke_reuse;
 mod masked;
 mod problems;

@@ -35,6 +35,7 @@ impl ConeSolver {
             rebuilds: self.counts.refactorisations,
             behind: self.behind,
             feasible: self.suspects.is_empty(),
+            shape: self.shape,
         };
         self.overwritten.clear();
         self.marked = true;
@@ -44,7 +45,11 @@ impl ConeSolver {
 
     /// Returns to a mark. To the latest one, the values come back bit for bit; to an earlier one they are computed
     /// again from its basis.
+    ///
+    /// # Panics
+    /// If rows or columns came to the problem or went from it since.
     pub fn roll_back(&mut self, mark: Mark) {
+        assert_eq!(mark.shape, self.shape, "a mark of another problem");
         let same_positions = mark.rebuilds == self.counts.refactorisations;
         let exact = self.last_mark == Some(mark);
         let mut gone = Vec::new();
