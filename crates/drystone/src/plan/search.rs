@@ -12,6 +12,9 @@ use std::{
     time::Instant,
 };
 
+/// Sub-assemblies known to be lost between two looks at the clock: each may take as long as the memory is large.
+const OFTEN: usize = 16;
+
 /// Says when a search has to end.
 pub(super) struct Clock<'a> {
     pub limits: Limits,
@@ -69,7 +72,7 @@ impl<'a> Search<'a> {
 
     /// Grows the current sub-assembly by the first candidate that stands, and steps back where none does.
     pub fn run(&mut self, test: &mut dyn StabilityTest, clock: &mut Clock<'_>) -> Result<Outcome, PlanError> {
-        let blocks = self.touching.blocks();
+        let (blocks, mut shortcuts) = (self.touching.blocks(), 0);
         while self.placed.len() < blocks {
             let Some(added) = self.next_candidate() else {
                 if self.step_back(None, test) {
@@ -86,10 +89,14 @@ impl<'a> Search<'a> {
             self.current.insert(added);
             let last = self.placed.len() + 1 == blocks; // the complete assembly, checked first
             let known = !last && self.knows(added);
-            if !last && !known {
+            shortcuts += usize::from(known);
+            if !last && (!known || shortcuts.is_multiple_of(OFTEN)) {
                 let (tests, placed) = (self.records.len(), self.placed.len());
-                if let Some(outcome) = clock.stops(Progress { stage: Stage::Search, tests, placed, blocks }) {
-                    return Ok(outcome);
+                match clock.stops(Progress { stage: Stage::Search, tests, placed, blocks }) {
+                    // What is known needs no test.
+                    None => {}
+                    Some(Outcome::TestLimit) if known => {}
+                    Some(outcome) => return Ok(outcome),
                 }
             }
             if last || !known && self.stands(test, added)? {

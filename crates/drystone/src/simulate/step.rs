@@ -59,6 +59,15 @@ impl World {
     /// # Errors
     /// [`StepFailure`]; the bodies are as they were before then.
     pub fn step(&mut self) -> Result<StepRecord, StepFailure> {
+        let made = self.attempt();
+        if made.is_err() {
+            // The solver may hold this step's problem already, of which the next one knows nothing.
+            self.forget();
+        }
+        made
+    }
+
+    fn attempt(&mut self) -> Result<StepRecord, StepFailure> {
         let begun = Instant::now();
         let spent = self.route.counts();
         let free = self.free_velocities();
