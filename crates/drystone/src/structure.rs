@@ -5,6 +5,7 @@ use crate::{
     check::{self, Verdict},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet},
+    plan::{Nogood, Touching, certified_collapse},
     scene::SceneOf,
 };
 use drystone_lcp::{
@@ -37,7 +38,9 @@ pub(crate) fn put_up(
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
 ///
 /// Kept between questions: the contacts of the complete scene, the basis of the generators that hold the structure up,
-/// and its factor. A verdict costs what the change reaches; see [`ConeSolver::decide`].
+/// and its factor. A verdict costs what the change reaches; see [`ConeSolver::decide`]. And how the structure fell last: as long
+/// as the blocks that came and went leave that collapse as it was (Lemma 1, `plan/collapse.rs`), it still falls, and the
+/// solver is not asked.
 ///
 /// ```
 /// use drystone::{Structure, scenes};
@@ -56,10 +59,16 @@ pub struct Structure {
     blocks: BlockSet,
     solver: ConeSolver,
     rows: BlockRows,
+    /// Applied wrenches, row by row.
+    loads: Vec<f64>,
     /// Place of each block in the order from the supports upward.
     height: Vec<usize>,
-    /// Blocks put up since the last question.
+    /// Blocks put up, and taken away, since the solver was last told.
     new: Vec<usize>,
+    gone: Vec<usize>,
+    touching: Touching,
+    /// How the structure fell when the solver was last asked.
+    fell: Option<Nogood>,
 }
 
 impl Structure {
@@ -76,7 +85,18 @@ impl Structure {
         let mut height = vec![0; assembly.blocks()];
         assembly.upward().into_iter().enumerate().for_each(|(place, block)| height[block] = place);
         let (blocks, solver) = (BlockSet::empty(assembly.blocks()), assembly.equilibrium());
-        Self { rows: assembly.equilibrium_rows(), assembly, blocks, solver, height, new: Vec::new() }
+        Self {
+            rows: assembly.equilibrium_rows(),
+            loads: (0..assembly.blocks()).flat_map(|block| assembly.applied(block)).copied().collect(),
+            touching: Touching::new(&assembly),
+            assembly,
+            blocks,
+            solver,
+            height,
+            new: Vec::new(),
+            gone: Vec::new(),
+            fell: None,
+        }
     }
 
     /// The complete assembly.
@@ -96,7 +116,7 @@ impl Structure {
     pub fn add(&mut self, block: usize) {
         if !self.blocks.contains(block) {
             self.blocks.insert(block);
-            self.new.push(block);
+            come(block, &mut self.new, &mut self.gone);
         }
     }
 
@@ -105,24 +125,38 @@ impl Structure {
     /// # Panics
     /// If there is no such block.
     pub fn remove(&mut self, block: usize) {
-        self.blocks.remove(block);
-        match self.new.iter().position(|&new| new == block) {
-            Some(place) => drop(self.new.remove(place)),
-            None => self.solver.remove_rows(self.rows.of(block)),
+        if self.blocks.contains(block) {
+            self.blocks.remove(block);
+            come(block, &mut self.gone, &mut self.new);
         }
     }
 
-    /// Puts the new blocks into the solver, from the supports upward.
+    /// Tells the solver what has come and gone: the new blocks from the supports upward.
     fn put_up(&mut self) {
+        let gone = std::mem::take(&mut self.gone);
+        gone.iter().for_each(|&block| self.solver.remove_rows(self.rows.of(block)));
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
         put_up(&mut self.solver, &self.rows, new, |_| true);
     }
 
+    /// Remembers how it falls, if it does.
+    fn learn(&mut self, found: Membership) {
+        self.fell = (found == Membership::Outside).then(|| {
+            let collapse = certified_collapse(&self.solver, &self.rows, &self.loads);
+            Nogood::of_collapse(&collapse, &self.blocks, &self.touching)
+        });
+    }
+
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.
     pub fn stands(&mut self) -> Option<bool> {
+        if self.fell.as_ref().is_some_and(|fell| fell.covers(&self.blocks)) {
+            return Some(false);
+        }
         self.put_up();
-        match self.solver.decide() {
+        let found = self.solver.decide();
+        self.learn(found);
+        match found {
             Membership::Inside => Some(true),
             Membership::Outside => Some(false),
             _ => None,
@@ -134,6 +168,7 @@ impl Structure {
         let before = self.solver.counts();
         self.put_up();
         let found = self.solver.solve();
+        self.learn(found);
         let spent = self.solver.counts() - before;
         if found != Membership::Inside {
             return check::solve_complementarity(&self.assembly, &self.blocks, spent);
@@ -150,5 +185,13 @@ impl Structure {
     /// Numbers stored in the factor.
     pub fn entries(&self) -> usize {
         self.solver.entries()
+    }
+}
+
+/// A block comes to one list; if it was about to leave by the other, nothing happens.
+fn come(block: usize, to: &mut Vec<usize>, from: &mut Vec<usize>) {
+    match from.iter().position(|&other| other == block) {
+        Some(place) => drop(from.remove(place)),
+        None => to.push(block),
     }
 }

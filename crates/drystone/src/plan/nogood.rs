@@ -13,7 +13,7 @@ const WORK_LEFT: f64 = 1e-3;
 
 /// A set of lost sub-assemblies.
 #[derive(Debug)]
-pub(super) struct Nogood {
+pub(crate) struct Nogood {
     /// Blocks with weights. Their sum over a sub-assembly must exceed `least` for it to be lost.
     weights: Vec<(usize, f64)>,
     least: f64,
@@ -80,7 +80,7 @@ impl Nogood {
 
     /// Why `added` cannot come next on the others of `set`, which this nogood covers. Blame falls on few blocks, and on
     /// such as were put up early: the earlier the last of them, the further the search can step back.
-    pub fn reason(&self, added: usize, set: &BlockSet, position: &[usize]) -> Reason {
+    pub(super) fn reason(&self, added: usize, set: &BlockSet, position: &[usize]) -> Reason {
         let mut absent = self.absent.clone();
         let mut needed = self.least;
         let mut drivers: Vec<(usize, f64)> = Vec::new();

@@ -192,7 +192,7 @@ impl Reuse {
 
 /// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y. `loads` has the entries of F; what comes
 /// after them are the rows of hands.
-pub(super) fn certified_collapse(solver: &ConeSolver, rows: &BlockRows, loads: &[f64]) -> Collapse {
+pub(crate) fn certified_collapse(solver: &ConeSolver, rows: &BlockRows, loads: &[f64]) -> Collapse {
     let mut moving: Vec<(usize, f64)> = Vec::new();
     for (row, y) in solver.certificate().into_iter().filter(|&(row, _)| row < loads.len()) {
         let (block, work) = (rows.block(row), -y * loads[row]);

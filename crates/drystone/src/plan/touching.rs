@@ -4,7 +4,7 @@ use crate::formulate::{Assembly, BlockSet};
 
 /// Neighbours of every movable block, and the blocks that rest against a fixed body.
 #[derive(Debug)]
-pub(super) struct Touching {
+pub(crate) struct Touching {
     /// Blocks from the supports upward: the order in which they are tried.
     upward: Vec<usize>,
     neighbours: Vec<Vec<usize>>,

@@ -1,0 +1,72 @@
+//! A structure that changes: the same verdict as afresh, whatever came and went, and how much of it takes no solver.
+
+use drystone::{
+    Scene, Structure,
+    check::check_blocks,
+    formulate::{Assembly, BlockSet},
+    scenes,
+};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+fn scenes_that_fall() -> Vec<Scene> {
+    vec![
+        scenes::arch(20, 0.2, 0.5).unwrap(),
+        scenes::random_stack(20, 3, 0.3).unwrap(),
+        scenes::wall(5, 5, 1, 0.5).unwrap(),
+        scenes::diamond(4, 0.0).unwrap(),
+    ]
+}
+
+/// Blocks come and go one to three at a time, mostly without a question in between being answered by standing.
+#[test]
+fn every_verdict_is_that_of_a_fresh_check() {
+    let mut random = Pcg64::seed_from_u64(11);
+    for scene in scenes_that_fall() {
+        let assembly = Assembly::new(&scene).unwrap();
+        let mut structure = Structure::of(assembly.clone());
+        let (mut present, mut verdicts) = (BlockSet::empty(assembly.blocks()), [0, 0]);
+        for _ in 0..400 {
+            for _ in 0..random.random_range(1..=3) {
+                let block = random.random_range(0..assembly.blocks());
+                // Three in four blocks are there on the average.
+                if random.random_range(0..4) > 0 {
+                    structure.add(block);
+                    present.insert(block);
+                } else {
+                    structure.remove(block);
+                    present.remove(block);
+                }
+            }
+            assert_eq!(structure.blocks(), &present);
+            let fresh = check_blocks(&assembly, &present);
+            assert_eq!(structure.stands(), Some(fresh.stable));
+            if random.random_range(0..5) == 0 {
+                let verdict = structure.check();
+                assert_eq!((verdict.stable, &verdict.falling), (fresh.stable, &fresh.falling));
+            }
+            verdicts[usize::from(fresh.stable)] += 1;
+        }
+        assert!(verdicts[0] > 20, "{verdicts:?}");
+    }
+}
+
+/// An arch without its keystone falls, and so does what is left of it from there on: the solver is asked a few times only.
+#[test]
+fn what_goes_on_falling_is_not_solved_again() {
+    let assembly = Assembly::new(&scenes::arch(41, 0.2, 0.5).unwrap()).unwrap();
+    let mut structure = Structure::of(assembly.clone());
+    (0..assembly.blocks()).for_each(|block| structure.add(block));
+    assert_eq!(structure.stands(), Some(true));
+    let (mut fell, mut asked) = (0, 0);
+    for block in assembly.upward().into_iter().rev() {
+        structure.remove(block);
+        let before = structure.counts();
+        let stands = structure.stands().unwrap();
+        assert_eq!(stands, check_blocks(&assembly, structure.blocks()).stable);
+        fell += usize::from(!stands);
+        asked += usize::from(!stands && structure.counts() != before);
+    }
+    assert!(fell > 15, "{fell}");
+    assert!(asked <= 4, "{asked} of {fell}");
+}
