@@ -230,3 +230,18 @@ def test_what_is_not_there_in_space_says_so() -> None:
     scene = ds.scenes.square_pyramid(2)
     with pytest.raises(ds.SceneError, match="in space"):
         ds.simulate(scene, steps=1)
+
+
+def test_everything_falls_freely_where_nothing_is_fixed() -> None:
+    scene = ds.Scene(dimension=3, gravity=(1.1, -2.3, -9.7), friction=0.6)
+    tilted = turned((0.6, 0.0, 0.8), 23.0)
+    up = np.array([0.48 * (1 - math.cos(math.radians(23))), -0.6 * math.sin(math.radians(23)), 0.0])
+    up[2] = math.cos(math.radians(23)) + 0.64 * (1 - math.cos(math.radians(23)))
+    for k, density in enumerate((0.37, 11.0, 3.3)):
+        scene.add_box(k * up, (1, 1 - 0.1 * k, 1), density=density, orientation=tilted)
+    assert len(scene.contacts) == 8
+    verdict = ds.check(scene)
+    assert (verdict.status, len(verdict.falling)) == ("solved", 3)
+    assert np.allclose(verdict.accelerations[:, :3], scene.gravity, rtol=0, atol=1e-12)
+    assert np.abs(verdict.accelerations[:, 3:]).max() <= 1e-12
+    assert max(force.normal_force for force in verdict.forces) <= 1e-9

@@ -3,7 +3,7 @@
 use super::{
     block_set::BlockSet,
     cones::{Cones, cone_edges},
-    generator::{Bodies, Generator},
+    generator::{Bodies, Generator, Wrench},
     part::{Assemble, Components, Part, dot, length},
 };
 use crate::{
@@ -254,7 +254,15 @@ impl Assembly {
     /// `A = G' M^-1 G` (1/kg) and `b = G' M^-1 F` (m/s^2) of the complete assembly. Equation 8 of Loomis and
     /// Balkcom: a sub-assembly's problem is the principal sub-problem on [`Self::rows`] of its blocks.
     pub fn problem(&self) -> Problem {
-        Problem::from_generators(&self.columns(self.generators.iter()), &self.inverse_mass, &self.balance())
+        // Weights accelerate all blocks alike, so that b is 0 between two of them: computed by way of the masses it would
+        // be rounding, and all there is where everything falls freely.
+        let gravity = self.gravity;
+        let pull = |generator: &Generator| -> f64 {
+            let along = |wrench: &Wrench| (0..3).map(|k| wrench.value[k] * gravity[k]).sum::<f64>();
+            generator.wrenches.iter().map(along).sum()
+        };
+        let b = self.generators.iter().map(pull).collect();
+        Problem::from_generators_and_q(&self.columns(self.generators.iter()), &self.inverse_mass, b)
             .expect("a validated scene has finite masses, positions and directions")
     }
 
