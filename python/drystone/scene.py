@@ -357,6 +357,11 @@ class Scene:
         return self._core.friction
 
     @property
+    def contact_tolerance(self) -> float | None:
+        """Gap or overlap up to which two bodies touch, metres; None for a share of their size."""
+        return self._core.contact_tolerance
+
+    @property
     def names(self) -> list[str]:
         """Names of all bodies, fixed ones included, in the order they were added."""
         return self._core.names()

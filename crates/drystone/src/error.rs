@@ -54,10 +54,10 @@ pub enum SceneError {
         body: String,
     },
     /// Something that is only there for the plane.
-    #[error("this is a scene in space: it takes one in the plane, of dimension 2")]
+    #[error("this scene is in space: polygons, extrusion and simulation take one in the plane (dimension 2)")]
     NotInPlane,
     /// Something that is only there for space.
-    #[error("this is a scene in the plane: it takes one in space, of dimension 3")]
+    #[error("this scene is in the plane: polyhedra and solids take one in space (dimension 3)")]
     NotInSpace,
     /// A friction cone with less than three edges.
     #[error("facets is {facets}: a friction cone in space has at least 3")]
