@@ -19,9 +19,10 @@ if TYPE_CHECKING:
         StepError,
         __version__,
     )
+    from drystone.body import Body, Contact, Piece, Solid
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.planning import Blocked, Plan, TestRecord, plan
-    from drystone.scene import Body, Contact, Piece, Scene, Solid
+    from drystone.scene import Scene
     from drystone.simulation import Run, simulate
     from drystone.statics import StaticsError
     from drystone.structure import Structure
@@ -68,21 +69,21 @@ __all__ = [
 _MODULES = ("imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
     "Blocked": "drystone.planning",
-    "Body": "drystone.scene",
-    "Contact": "drystone.scene",
+    "Body": "drystone.body",
+    "Contact": "drystone.body",
     "ContactForce": "drystone.verdict",
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
     "LcpError": "drystone._core",
     "ManyPlans": "drystone.many",
-    "Piece": "drystone.scene",
+    "Piece": "drystone.body",
     "Plan": "drystone.planning",
     "Run": "drystone.simulation",
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
     "ScenePlan": "drystone.many",
     "SimulationError": "drystone._core",
-    "Solid": "drystone.scene",
+    "Solid": "drystone.body",
     "StartError": "drystone._core",
     "StaticsError": "drystone.statics",
     "Structure": "drystone.structure",

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from drystone import _core
+from drystone.body import Contact, snapshot
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+    pass
 
 Point = Sequence[float]
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
@@ -22,92 +21,6 @@ an array."""
 ORIGIN = (0.0, 0.0, 0.0)
 UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 """The quaternion (w, x, y, z) that turns nothing."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Body:
-    """A snapshot of one body of a scene in the plane."""
-
-    name: str
-    """Unique in its scene."""
-    fixed: bool
-    """A fixed body never moves, whatever pushes it."""
-    density: float
-    """kg/m^2: the mass of a square metre of the plane figure."""
-    friction: float
-    """The body's own coefficient of friction."""
-    mass: float
-    """kg."""
-    inertia: float
-    """kg m^2, about the centroid."""
-    centroid: tuple[float, float]
-    """(x, y) in metres."""
-    angle: float
-    """Radians, counter-clockwise: how far the body is turned from the outline it was given with
-    (a box from upright; corners given as such are not turned)."""
-    vertices: NDArray[np.float64]
-    """(n, 2), metres, world coordinates, counter-clockwise."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Piece:
-    """One convex piece of a body in space."""
-
-    vertices: NDArray[np.float64]
-    """(k, 3), metres, in the body's frame, whose origin is the centroid."""
-    faces: tuple[tuple[int, ...], ...]
-    """Vertices of each face, counter-clockwise seen from outside."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Solid:
-    """A snapshot of one body of a scene in space."""
-
-    name: str
-    """Unique in its scene."""
-    fixed: bool
-    """A fixed body never moves, whatever pushes it."""
-    density: float
-    """kg/m^3."""
-    friction: float
-    """The body's own coefficient of friction."""
-    mass: float
-    """kg."""
-    inertia: NDArray[np.float64]
-    """(3, 3), kg m^2, about the centroid along the axes of the world."""
-    centroid: tuple[float, float, float]
-    """(x, y, z) in metres."""
-    orientation: tuple[float, float, float, float]
-    """Unit quaternion (w, x, y, z): how far the body is turned from the shape it was given with."""
-    box_size: tuple[float, float, float] | None
-    """Sides of a box, metres."""
-    pieces: tuple[Piece, ...]
-    """Its convex pieces, in the body's frame."""
-    vertices: NDArray[np.float64]
-    """(n, 3), metres: every corner of every piece, in world coordinates."""
-
-    @property
-    def position(self) -> tuple[float, float, float]:
-        """The centroid: where the body's frame stands."""
-        return self.centroid
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """One point where body `a` touches body `b`."""
-
-    a: str
-    b: str
-    feature: str
-    """Which corner meets which side: with the two names, the contact's stable identity."""
-    point: tuple[float, ...]
-    """(x, y) in metres; in space (x, y, z)."""
-    normal: tuple[float, ...]
-    """Unit vector from `a` into `b`."""
-    gap: float
-    """Metres between the bodies here; negative where they overlap within tolerance."""
-    friction: float
-    """Coefficient of friction of this pair."""
 
 
 class Scene:
@@ -372,11 +285,11 @@ class Scene:
 
         Each is a `Body` in the plane, a `Solid` in space.
         """
-        return [_snapshot(body) for body in self._core.bodies()]
+        return [snapshot(body) for body in self._core.bodies()]
 
     def body(self, name: str) -> Any:
         """The body called `name`, a `Body` or a `Solid`; SceneError if there is none."""
-        return _snapshot(self._core.body(name))
+        return snapshot(self._core.body(name))
 
     @property
     def contacts(self) -> list[Contact]:
@@ -440,31 +353,3 @@ def _quaternion(value: Sequence[float]) -> tuple[float, float, float, float]:
         raise _core.SceneError(
             f"orientation must be a quaternion (w, x, y, z), not {value!r}"
         ) from None
-
-
-def _snapshot(body: _core.Body | _core.Solid) -> Body | Solid:
-    if isinstance(body, _core.Solid):
-        return Solid(
-            body.name,
-            body.fixed,
-            body.density,
-            body.friction,
-            body.mass,
-            body.inertia,
-            body.centroid,
-            body.orientation,
-            body.box_size,
-            tuple(Piece(v, tuple(tuple(face) for face in faces)) for v, faces in body.pieces),
-            body.vertices,
-        )
-    return Body(
-        body.name,
-        body.fixed,
-        body.density,
-        body.friction,
-        body.mass,
-        body.inertia,
-        body.centroid,
-        body.angle,
-        body.vertices,
-    )

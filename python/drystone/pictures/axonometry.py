@@ -15,7 +15,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from drystone.scene import Solid
+from drystone.body import Solid
 
 Points = NDArray[np.float64]
 

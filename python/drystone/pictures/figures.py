@@ -10,6 +10,7 @@ from matplotlib import colormaps
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
+from drystone.body import Body
 from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
@@ -22,7 +23,7 @@ from drystone.pictures.shapes import (
     draw_labels,
     typical_size,
 )
-from drystone.scene import Body, Scene
+from drystone.scene import Scene
 from drystone.verdict import Verdict, counted
 
 if TYPE_CHECKING:

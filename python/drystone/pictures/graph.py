@@ -11,9 +11,10 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
+from drystone.body import Body
 from drystone.pictures import style
 from drystone.pictures.canvas import bounds
-from drystone.scene import Body, Scene
+from drystone.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -23,8 +23,9 @@ from drystone.verdict import Verdict, counted
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from drystone.body import Solid
     from drystone.planning import Plan
-    from drystone.scene import Scene, Solid
+    from drystone.scene import Scene
 
 GHOST_MOVE = 0.35
 """How far the fastest corner of a falling block is shown moved, in typical block sizes."""

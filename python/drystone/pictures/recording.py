@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from drystone.body import Body
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.canvas import Canvas, bounds, fitted
@@ -21,7 +22,6 @@ from drystone.pictures.shapes import (
     draw_labels,
     typical_size,
 )
-from drystone.scene import Body
 from drystone.viewer.contract import ABSENT
 from drystone.viewer.recording import FrameForces, Recording, own_frame
 

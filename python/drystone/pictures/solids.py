@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.path import Path
 
+from drystone.body import Solid
 from drystone.pictures import style
 from drystone.pictures.axonometry import (
     Piece,
@@ -23,7 +24,6 @@ from drystone.pictures.axonometry import (
 from drystone.pictures.canvas import Canvas
 from drystone.pictures.seams import edges_seen
 from drystone.pictures.shapes import draw_labels, line_width
-from drystone.scene import Solid
 
 Stroke = tuple[Path, "tuple[float, ...] | str", "tuple[float, ...] | str"]
 """An outline or a line, what fills it, and its colour."""

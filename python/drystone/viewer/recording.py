@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drystone.scene import Body, Solid
+from drystone.body import Body, Solid
 from drystone.viewer.contract import (
     FORMAT,
     VERSION,

@@ -1,6 +1,8 @@
 //! The complete assembly's contact problem. Every sub-assembly's problem is a principal sub-problem of it.
 
 use super::{
+    answers::{Acceleration, ContactForce},
+    block_rows::BlockRows,
     block_set::BlockSet,
     cones::{Cones, cone_edges},
     generator::{Bodies, Generator, Wrench},
@@ -37,65 +39,6 @@ pub struct Assembly {
     inverse_mass: Vec<f64>,
     /// Applied wrenches `F`, block after block.
     applied: Vec<f64>,
-}
-
-/// The force that the first body of a contact exerts on the second, newtons.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactForce {
-    /// Index of the contact in [`Assembly::contacts`].
-    pub contact: usize,
-    /// Along the contact normal (first body into second): not negative.
-    pub normal: f64,
-    /// In the plane along the normal turned 90 degrees counter-clockwise; in space its size, which is not negative.
-    pub tangential: f64,
-    /// In world axes.
-    pub force: [f64; 3],
-}
-
-/// Acceleration of a block in world axes; in the plane x, y and the turn about z are in use.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Acceleration {
-    /// Of the centroid, m/s^2.
-    pub linear: [f64; 3],
-    /// rad/s^2.
-    pub angular: [f64; 3],
-}
-
-impl Acceleration {
-    /// x, y and the turn: all there is in the plane.
-    pub fn in_plane(self) -> [f64; 3] {
-        [self.linear[0], self.linear[1], self.angular[2]]
-    }
-
-    /// All six in one.
-    pub fn components(self) -> [f64; 6] {
-        let ([x, y, z], [a, b, c]) = (self.linear, self.angular);
-        [x, y, z, a, b, c]
-    }
-}
-
-/// Rows of [`Assembly::equilibrium`] by block.
-#[derive(Debug, Clone)]
-pub struct BlockRows {
-    components: usize,
-    all: Vec<usize>,
-}
-
-impl BlockRows {
-    /// Rows of so many blocks with these [`Components`].
-    pub fn of_components(components: &[usize], blocks: usize) -> Self {
-        Self { components: components.len(), all: (0..components.len() * blocks).collect() }
-    }
-
-    /// Rows of a movable block: the components of its wrench.
-    pub fn of(&self, block: usize) -> &[usize] {
-        &self.all[self.components * block..self.components * (block + 1)]
-    }
-
-    /// The movable block that a row belongs to.
-    pub fn block(&self, row: usize) -> usize {
-        row / self.components
-    }
 }
 
 impl Assembly {

@@ -10,14 +10,18 @@
 //!
 //! (Loomis and Balkcom 2006, equation 4; with friction this is the convex, maximum-dissipation form.)
 
+mod answers;
 mod assembly;
+mod block_rows;
 mod block_set;
 mod cones;
 mod generator;
 mod hands;
 mod part;
 
-pub use assembly::{Acceleration, Assembly, BlockRows, ContactForce};
+pub use answers::{Acceleration, ContactForce};
+pub use assembly::Assembly;
+pub use block_rows::BlockRows;
 pub use block_set::BlockSet;
 pub(crate) use cones::cone_edges;
 pub use cones::{Bound, Cones, FACETS};

@@ -1,5 +1,6 @@
 //! Shapes and where they stand. No physics beyond measure and moments, no names of blocks.
 
+mod hull;
 mod polygon;
 mod polyhedron;
 mod pose;
@@ -8,10 +9,10 @@ mod shape;
 mod solid;
 mod sweep;
 
+pub(crate) use hull::convex_outline;
 pub use parry2d_f64::math::Vector;
 pub use parry3d_f64::math::Vector as Vector3;
 pub use polygon::{Polygon, ShapeFault};
-pub(crate) use polyhedron::convex_outline;
 pub use polyhedron::{Edge, MOST_POINTS, Polyhedron, SolidFault};
 pub use pose::Pose;
 pub use pose_in_space::PoseInSpace;

@@ -1,0 +1,127 @@
+"""Snapshots of a scene's bodies, and of the points where they touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from drystone import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Body:
+    """A snapshot of one body of a scene in the plane."""
+
+    name: str
+    """Unique in its scene."""
+    fixed: bool
+    """A fixed body never moves, whatever pushes it."""
+    density: float
+    """kg/m^2: the mass of a square metre of the plane figure."""
+    friction: float
+    """The body's own coefficient of friction."""
+    mass: float
+    """kg."""
+    inertia: float
+    """kg m^2, about the centroid."""
+    centroid: tuple[float, float]
+    """(x, y) in metres."""
+    angle: float
+    """Radians, counter-clockwise: how far the body is turned from the outline it was given with
+    (a box from upright; corners given as such are not turned)."""
+    vertices: NDArray[np.float64]
+    """(n, 2), metres, world coordinates, counter-clockwise."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """One convex piece of a body in space."""
+
+    vertices: NDArray[np.float64]
+    """(k, 3), metres, in the body's frame, whose origin is the centroid."""
+    faces: tuple[tuple[int, ...], ...]
+    """Vertices of each face, counter-clockwise seen from outside."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Solid:
+    """A snapshot of one body of a scene in space."""
+
+    name: str
+    """Unique in its scene."""
+    fixed: bool
+    """A fixed body never moves, whatever pushes it."""
+    density: float
+    """kg/m^3."""
+    friction: float
+    """The body's own coefficient of friction."""
+    mass: float
+    """kg."""
+    inertia: NDArray[np.float64]
+    """(3, 3), kg m^2, about the centroid along the axes of the world."""
+    centroid: tuple[float, float, float]
+    """(x, y, z) in metres."""
+    orientation: tuple[float, float, float, float]
+    """Unit quaternion (w, x, y, z): how far the body is turned from the shape it was given with."""
+    box_size: tuple[float, float, float] | None
+    """Sides of a box, metres."""
+    pieces: tuple[Piece, ...]
+    """Its convex pieces, in the body's frame."""
+    vertices: NDArray[np.float64]
+    """(n, 3), metres: every corner of every piece, in world coordinates."""
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """The centroid: where the body's frame stands."""
+        return self.centroid
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """One point where body `a` touches body `b`."""
+
+    a: str
+    b: str
+    feature: str
+    """Which corner meets which side: with the two names, the contact's stable identity."""
+    point: tuple[float, ...]
+    """(x, y) in metres; in space (x, y, z)."""
+    normal: tuple[float, ...]
+    """Unit vector from `a` into `b`."""
+    gap: float
+    """Metres between the bodies here; negative where they overlap within tolerance."""
+    friction: float
+    """Coefficient of friction of this pair."""
+
+
+def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:
+    """What the core shows of a body."""
+    if isinstance(body, _core.Solid):
+        return Solid(
+            body.name,
+            body.fixed,
+            body.density,
+            body.friction,
+            body.mass,
+            body.inertia,
+            body.centroid,
+            body.orientation,
+            body.box_size,
+            tuple(Piece(v, tuple(tuple(face) for face in faces)) for v, faces in body.pieces),
+            body.vertices,
+        )
+    return Body(
+        body.name,
+        body.fixed,
+        body.density,
+        body.friction,
+        body.mass,
+        body.inertia,
+        body.centroid,
+        body.angle,
+        body.vertices,
+    )
