@@ -17,6 +17,7 @@ mod narrow_phase;
 mod separation;
 mod shared_face;
 mod solids;
+mod touch;
 
 pub use id::{ContactId, Feature, SolidFeature, SolidPart};
 pub use solids::find_solid_contacts;
@@ -25,7 +26,8 @@ pub(crate) use solids::overlapping_pieces;
 use crate::error::SceneError;
 use crate::geometry::{Shape, Vector};
 use crate::scene::{Body, Scene, SceneOf};
-use narrow_phase::{Outline, Touch};
+use narrow_phase::Outline;
+use touch::{Pressing, contacts_of};
 
 /// Default contact tolerance as a share of the narrower block's width.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
@@ -67,41 +69,17 @@ pub struct ContactSet {
 /// Any other overlap by more than the tolerance is [`SceneError::Overlap`]; the deepest is named.
 pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
     let bodies = scene.bodies();
-    let pairs = broad_phase::candidate_pairs(scene);
     let outlines: Vec<Outline> = bodies.iter().map(Outline::of).collect();
-    let mut found = ContactSet { candidate_pairs: pairs.len(), ..ContactSet::default() };
-    let mut deepest: Option<([usize; 2], f64)> = None;
-    for &[a, b] in &pairs {
-        let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
+    contacts_of(scene, &broad_phase::candidate_pairs(scene), |[a, b], tolerance| {
         let origin = Vector::from_array(bodies[a].pose.position);
         let offset = Vector::from_array(bodies[b].pose.position) - origin;
-        match narrow_phase::touch(&outlines[a], &outlines[b], offset, tolerance) {
-            Touch::Apart => {}
-            Touch::AtCorners => found.corner_touches.push([a, b]),
-            Touch::Overlap { depth } => {
-                if deepest.is_none_or(|(_, most)| depth > most) {
-                    deepest = Some(([a, b], depth));
-                }
-            }
-            Touch::At(points) => found.contacts.extend(points.into_iter().map(|p| Contact {
-                id: ContactId { bodies: [a, b], feature: p.feature },
-                bodies: [a, b],
-                point: in_space(origin + p.point),
-                normal: in_space(p.normal),
-                gap: p.gap,
-                friction: scene.pair_friction(a, b),
-            })),
-        }
-    }
-    match deepest {
-        None => Ok(found),
-        Some(([a, b], depth)) => Err(SceneError::Overlap {
-            a: bodies[a].name.clone(),
-            b: bodies[b].name.clone(),
-            depth,
-            tolerance: pair_tolerance(scene, &bodies[a], &bodies[b]),
-        }),
-    }
+        narrow_phase::touch(&outlines[a], &outlines[b], offset, tolerance).map(|p| Pressing {
+            feature: p.feature,
+            point: in_space(origin + p.point),
+            normal: in_space(p.normal),
+            gap: p.gap,
+        })
+    })
 }
 
 /// A planar vector as one in space.

@@ -12,24 +12,9 @@
 //!               low        ...  high            ends of the shared span
 //! ```
 
-use super::id::Feature;
+use super::{id::Feature, touch::Touch};
 use crate::geometry::Vector;
 use crate::scene::Body;
-
-/// How two polygons touch.
-pub(super) enum Touch {
-    /// Further apart than the tolerance.
-    Apart,
-    /// A corner of each, and nothing else.
-    AtCorners,
-    /// Deeper into each other than the tolerance.
-    Overlap {
-        /// The shortest way out, metres.
-        depth: f64,
-    },
-    /// At one point or two.
-    At(Vec<TouchPoint>),
-}
 
 /// A contact point relative to the first polygon's centroid.
 pub(super) struct TouchPoint {
@@ -63,7 +48,7 @@ impl Outline {
 }
 
 /// How `a` and `b` touch, where `b`'s centroid is `offset` from `a`'s.
-pub(super) fn touch(a: &Outline, b: &Outline, offset: Vector, tolerance: f64) -> Touch {
+pub(super) fn touch(a: &Outline, b: &Outline, offset: Vector, tolerance: f64) -> Touch<TouchPoint> {
     let (face_a, separation_a) = greatest_separation(a, b, offset);
     let (face_b, separation_b) = greatest_separation(b, a, -offset);
     let separation = separation_a.max(separation_b);
@@ -157,7 +142,7 @@ impl Span {
     }
 
     /// Turns the span into contact points. `origin` is the reference polygon's centroid.
-    fn touch(&self, role: Role, tolerance: f64, origin: Vector) -> Touch {
+    fn touch(&self, role: Role, tolerance: f64, origin: Vector) -> Touch<TouchPoint> {
         let closed = |end: &End| end.gap <= tolerance;
         let shared = self.high.along - self.low.along;
         if closed(&self.low) && closed(&self.high) && shared > tolerance {
@@ -187,7 +172,7 @@ impl Span {
                 Touch::At(vec![self.point(role, feature, lowest, origin)])
             }
             // Each of the two distances along and across the face may use the whole tolerance.
-            _ if self.corner_distance <= 2.0 * tolerance => Touch::AtCorners,
+            _ if self.corner_distance <= 2.0 * tolerance => Touch::AtBorders,
             _ => Touch::Apart,
         }
     }

@@ -1,13 +1,13 @@
 //! Contacts of solids: the whole polygon of a shared face, and edges that cross.
 
 use super::{
-    Contact, ContactId, ContactSet, Feature,
+    ContactSet, Feature,
     broad_phase::pairs_in_space,
     id::{SolidFeature, SolidPart},
-    pair_tolerance,
     separation::{Between, Separation, along_edges, along_faces, direction},
     shared_face::{SharedCorner, shared_corners},
     tolerance_of,
+    touch::{Pressing, Touch, contacts_of},
 };
 use crate::{
     error::SceneError,
@@ -29,17 +29,6 @@ impl Placed {
     }
 }
 
-/// How two convex pieces touch.
-enum Touch {
-    Apart,
-    /// Only at corners and along edges: such a touch has no normal of its own.
-    AtBorders,
-    Overlap {
-        depth: f64,
-    },
-    At(Vec<TouchPoint>),
-}
-
 /// A contact point relative to the first body's centroid.
 #[derive(Debug, Clone, Copy)]
 struct TouchPoint {
@@ -59,40 +48,16 @@ pub fn find_solid_contacts(scene: &SceneOf<Solid>) -> Result<ContactSet, SceneEr
     let boxes = |i: usize| bounds(bodies[i].shape.vertices().map(|v| bodies[i].pose.transform(v)));
     let pairs = pairs_in_space(bodies.len(), |i| bodies[i].fixed, boxes, |i| tolerance_of(scene, &bodies[i]));
     let placed: Vec<Placed> = bodies.iter().map(Placed::of).collect();
-    let mut found = ContactSet { candidate_pairs: pairs.len(), ..ContactSet::default() };
-    let mut deepest: Option<([usize; 2], f64)> = None;
-    for &[a, b] in &pairs {
-        let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
+    contacts_of(scene, &pairs, |[a, b], tolerance| {
         let origin = Vector3::from_array(bodies[a].pose.position);
         let offset = Vector3::from_array(bodies[b].pose.position) - origin;
-        let touch = touch_of_bodies(&placed[a], &placed[b], offset, tolerance);
-        match touch {
-            Touch::Apart => {}
-            Touch::AtBorders => found.corner_touches.push([a, b]),
-            Touch::Overlap { depth } => {
-                if deepest.is_none_or(|(_, most)| depth > most) {
-                    deepest = Some(([a, b], depth));
-                }
-            }
-            Touch::At(points) => found.contacts.extend(points.into_iter().map(|p| Contact {
-                id: ContactId { bodies: [a, b], feature: Feature::Solids { a: p.features[0], b: p.features[1] } },
-                bodies: [a, b],
-                point: (origin + p.point).to_array(),
-                normal: p.normal.to_array(),
-                gap: p.gap,
-                friction: scene.pair_friction(a, b),
-            })),
-        }
-    }
-    match deepest {
-        None => Ok(found),
-        Some(([a, b], depth)) => Err(SceneError::Overlap {
-            a: bodies[a].name.clone(),
-            b: bodies[b].name.clone(),
-            depth,
-            tolerance: pair_tolerance(scene, &bodies[a], &bodies[b]),
-        }),
-    }
+        touch_of_bodies(&placed[a], &placed[b], offset, tolerance).map(|p| Pressing {
+            feature: Feature::Solids { a: p.features[0], b: p.features[1] },
+            point: (origin + p.point).to_array(),
+            normal: p.normal.to_array(),
+            gap: p.gap,
+        })
+    })
 }
 
 /// The first two pieces of a solid that overlap by more than the tolerance, and by how much.
@@ -111,7 +76,7 @@ fn bounds(points: impl Iterator<Item = Vector3>) -> [Vector3; 2] {
 }
 
 /// All pieces of one body against all of another.
-fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> Touch {
+fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> Touch<TouchPoint> {
     if let ([one], [other]) = (&a.pieces[..], &b.pieces[..]) {
         return touch([one, other], [0, 0], offset, tolerance);
     }
@@ -142,7 +107,7 @@ fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> T
 }
 
 /// How two convex pieces touch; the second stands at `offset` from the first.
-fn touch(pieces: [&Polyhedron; 2], numbers: [usize; 2], offset: Vector3, tolerance: f64) -> Touch {
+fn touch(pieces: [&Polyhedron; 2], numbers: [usize; 2], offset: Vector3, tolerance: f64) -> Touch<TouchPoint> {
     let [a, b] = pieces;
     let faces = along_faces(a, b, offset);
     if faces.distance > tolerance {
