@@ -3,7 +3,8 @@
 use crate::{
     contact::Contact,
     error::SceneError,
-    formulate::{Acceleration, Assemble, Assembly, BlockSet, Components, ContactForce, length},
+    formulate::{Acceleration, Assemble, Assembly, BlockSet, Components, ContactForce},
+    geometry::length,
     scene::SceneOf,
     structure::put_up,
 };

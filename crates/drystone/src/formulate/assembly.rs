@@ -6,11 +6,12 @@ use super::{
     block_set::BlockSet,
     cones::{Cones, cone_edges},
     generator::{Bodies, Generator, Wrench},
-    part::{Assemble, Components, Part, dot, length},
+    part::{Assemble, Components, Part},
 };
 use crate::{
     contact::{Contact, ContactSet},
     error::SceneError,
+    geometry::{dot, length},
     scene::SceneOf,
     suggest::nearest,
 };

@@ -5,7 +5,7 @@
 //! it). What stands within the inscribed pyramids stands; what falls within the circumscribed ones falls. The two
 //! come together as 1 - cos(pi / k).
 
-use super::part::{cross, dot, length};
+use crate::geometry::{cross, dot, length};
 
 /// Whether the pyramids lie within Coulomb's cones or around them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -26,5 +26,4 @@ pub use block_set::BlockSet;
 pub(crate) use cones::cone_edges;
 pub use cones::{Bound, Cones, FACETS};
 pub use generator::{Generator, Wrench};
-pub(crate) use part::length;
 pub use part::{Assemble, Components, Part};

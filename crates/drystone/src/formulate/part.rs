@@ -3,7 +3,7 @@
 use crate::{
     contact::{ContactSet, find_contacts, find_solid_contacts},
     error::SceneError,
-    geometry::{Piece, Polygon, Shape, Solid},
+    geometry::{Piece, Polygon, Shape, Solid, cross, dot, minus},
     scene::{Body, Scene, SceneOf},
 };
 
@@ -133,21 +133,4 @@ impl Part {
         let per_mass = self.mass.recip();
         [per_mass, per_mass, per_mass, x, y, z]
     }
-}
-
-pub(super) fn dot([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> f64 {
-    ax * bx + ay * by + az * bz
-}
-
-pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub(super) fn cross([ax, ay, az]: [f64; 3], [bx, by, bz]: [f64; 3]) -> [f64; 3] {
-    [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx]
-}
-
-/// Length of a vector. In the plane, where z is 0, that of the two others to the bit.
-pub(crate) fn length([x, y, z]: [f64; 3]) -> f64 {
-    x.hypot(y).hypot(z)
 }

@@ -8,6 +8,7 @@ mod pose_in_space;
 mod shape;
 mod solid;
 mod sweep;
+mod vectors;
 
 pub(crate) use hull::convex_outline;
 pub use parry2d_f64::math::Vector;
@@ -19,4 +20,4 @@ pub use pose_in_space::PoseInSpace;
 pub use shape::Shape;
 pub use solid::Solid;
 pub use sweep::Piece;
-pub(crate) use sweep::{cross, dot, unit};
+pub(crate) use vectors::{cross, dot, length, minus, unit};

@@ -14,14 +14,14 @@
 //! Which piece is in the way of which, for every direction, is the non-directional blocking graph of R. H. Wilson and
 //! J.-F. Rit, "Maintaining geometric dependencies in an assembly planner", ICRA 1990.
 
-use super::{PoseInSpace, Solid};
+use super::{
+    PoseInSpace, Solid,
+    vectors::{cross, dot, unit},
+};
 
 /// How far a direction may be from lying in a face, radians, to slide along it: far above the rounding of normals, and less
 /// than a contact tolerance on the way of a thousand blocks.
 const SLIDING: f64 = 1e-9;
-
-/// A cross product this short, of unit vectors, is that of parallel ones.
-const PARALLEL: f64 = 1e-9;
 
 /// A convex piece. One in the plane is a column without end, whose edges are upright.
 #[derive(Debug, Clone)]
@@ -81,20 +81,6 @@ impl Piece {
         };
         along(&other.vertices, f64::INFINITY, f64::min) - along(&self.vertices, f64::NEG_INFINITY, f64::max)
     }
-}
-
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// The unit vector along another one, if that is not all but zero.
-pub(crate) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let length = dot(a, a).sqrt();
-    (length > PARALLEL).then(|| a.map(|x| x / length))
 }
 
 #[cfg(test)]

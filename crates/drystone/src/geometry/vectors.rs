@@ -1,0 +1,30 @@
+//! Vectors of three numbers, as they stand in contacts, wrenches and directions.
+
+/// A cross product this short, of unit vectors, is that of parallel ones.
+const PARALLEL: f64 = 1e-9;
+
+/// Scalar product.
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product.
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The unit vector along another one, if that is not all but zero.
+pub(crate) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+    let length = dot(a, a).sqrt();
+    (length > PARALLEL).then(|| a.map(|x| x / length))
+}
+
+/// The difference.
+pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Length of a vector. In the plane, where z is 0, that of the two others to the bit.
+pub(crate) fn length([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).hypot(z)
+}
