@@ -1,12 +1,13 @@
 //! Motion against answers known in closed form, and what must hold in every step: no drift, no energy gained.
 
+mod motion;
+
 use drystone::{
     BodyOptions, Scene, scenes,
     simulate::{Options, World},
 };
+use motion::{G, close, named, on_ground};
 use std::f64::consts::TAU;
-
-const G: f64 = 9.81;
 
 fn world(scene: Scene, dt: f64) -> World {
     World::new(scene, Options { dt, ..Options::default() }).unwrap()
@@ -16,26 +17,11 @@ fn weightless(friction: f64) -> Scene {
     Scene::new([0.0, 0.0], friction).unwrap()
 }
 
-fn on_ground(friction: f64) -> Scene {
-    let mut scene = Scene::new([0.0, -G], friction).unwrap();
-    let ground = BodyOptions { name: Some("ground".into()), fixed: true, ..BodyOptions::default() };
-    scene.add_box([0.0, -0.5], [100.0, 1.0], 0.0, ground).unwrap();
-    scene
-}
-
-fn named(name: &str) -> BodyOptions {
-    BodyOptions { name: Some(name.into()), ..BodyOptions::default() }
-}
-
 fn steps(world: &mut World, count: usize) {
     for _ in 0..count {
         let record = world.step().unwrap();
         assert!(record.residual <= 1e-9 && record.friction_error <= 1e-9, "{record:?}");
     }
-}
-
-fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{found} is not {expected} within {tolerance:e}");
 }
 
 /// Coulomb: a = g (sin s - mu cos s) along the slope and nothing across it. The integrator's place after n steps is

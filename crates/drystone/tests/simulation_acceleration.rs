@@ -1,12 +1,13 @@
 //! Motion on the acceleration level: answers in closed form, agreement with the velocity level, and what happens where no
 //! forces exist.
 
+mod motion;
+
 use drystone::{
-    BodyOptions, Scene, scenes,
+    Scene, scenes,
     simulate::{Formulation, Options, Reuse, World},
 };
-
-const G: f64 = 9.81;
+use motion::{G, close, named, on_ground};
 
 fn options(dt: f64) -> Options {
     Options { dt, formulation: Formulation::Acceleration, ..Options::default() }
@@ -16,17 +17,6 @@ fn world(scene: Scene, dt: f64) -> World {
     World::new(scene, options(dt)).unwrap()
 }
 
-fn on_ground(friction: f64) -> Scene {
-    let mut scene = Scene::new([0.0, -G], friction).unwrap();
-    let ground = BodyOptions { name: Some("ground".into()), fixed: true, ..BodyOptions::default() };
-    scene.add_box([0.0, -0.5], [100.0, 1.0], 0.0, ground).unwrap();
-    scene
-}
-
-fn named(name: &str) -> BodyOptions {
-    BodyOptions { name: Some(name.into()), ..BodyOptions::default() }
-}
-
 /// Makes steps; every one is solved, obeys Coulomb's law and has forces.
 fn steps(world: &mut World, count: usize) {
     for _ in 0..count {
@@ -34,10 +24,6 @@ fn steps(world: &mut World, count: usize) {
         assert!(record.residual <= 1e-9 && record.friction_error <= 1e-9, "{record:?}");
         assert_eq!(record.inconsistent, None);
     }
-}
-
-fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance, "{found} is not {expected} within {tolerance:e}");
 }
 
 /// Coulomb: a = g (sin s - mu cos s) along the slope and nothing across it.
