@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import csv
 import datetime
 import math
@@ -91,6 +92,18 @@ def _ours(result: Measured) -> bool:
 def machine() -> str:
     """The kind of machine: architecture and cores."""
     return f"{platform.machine()}-{os.cpu_count()}core"
+
+
+def add_output(parser: argparse.ArgumentParser) -> None:
+    """The option that says where results go."""
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        default=Path(__file__).parent / "results",
+        metavar="DIR",
+        help="where results go (default: benchmarks/results)",
+    )
 
 
 def path_in(folder: Path) -> Path:

@@ -15,7 +15,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 import argparse
 import math
 import os
-from pathlib import Path
 
 from rich.console import Console
 
@@ -117,14 +116,7 @@ def _arguments() -> argparse.Namespace:
         action="store_false",
         help="leave out the runs in processes of their own that measure memory",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        default=Path(__file__).parent / "results",
-        metavar="DIR",
-        help="where results go (default: benchmarks/results)",
-    )
+    results.add_output(parser)
     return parser.parse_args()
 
 

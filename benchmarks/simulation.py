@@ -19,7 +19,6 @@ import os
 import statistics
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -257,14 +256,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument(
         "--simulators", nargs="+", choices=SIMULATORS, default=list(SIMULATORS), metavar="NAME"
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        default=Path(__file__).parent / "results",
-        metavar="DIR",
-        help="where results go (default: benchmarks/results)",
-    )
+    results.add_output(parser)
     return parser.parse_args()
 
 

@@ -101,6 +101,20 @@ impl Scene {
         raised(self.core.clone().in_plane())
     }
 
+    fn plane(&mut self) -> PyResult<&mut drystone::Scene> {
+        match &mut self.core {
+            AnyScene::Plane(scene) => Ok(scene),
+            AnyScene::Space(_) => raised(Err(SceneError::NotInPlane)),
+        }
+    }
+
+    fn space(&mut self) -> PyResult<&mut drystone::SceneInSpace> {
+        match &mut self.core {
+            AnyScene::Space(scene) => Ok(scene),
+            AnyScene::Plane(_) => raised(Err(SceneError::NotInSpace)),
+        }
+    }
+
     fn body_at(&self, py: Python<'_>, index: usize) -> PyResult<Py<PyAny>> {
         match &self.core {
             AnyScene::Plane(scene) => Ok(Py::new(py, Body::of(py, scene, index)?)?.into_any()),
@@ -158,6 +172,11 @@ impl Solid {
             vertices: matrix(py, &body.corners())?.unbind(),
         })
     }
+}
+
+/// The name of the body that was added.
+fn name_of<S: Shape>(scene: &SceneOf<S>, added: Result<usize, SceneError>) -> PyResult<String> {
+    raised(added.map(|index| scene.bodies()[index].name.clone()))
 }
 
 /// An empty scene with or without a tolerance of its own.
@@ -221,9 +240,9 @@ impl Scene {
         friction: Option<f64>,
         fixed: bool,
     ) -> PyResult<String> {
-        let AnyScene::Plane(scene) = &mut self.core else { return raised(Err(SceneError::NotInPlane)) };
+        let scene = self.plane()?;
         let added = scene.add_box(center, size, angle, options(name, density, friction, fixed));
-        raised(added.map(|index| scene.bodies()[index].name.clone()))
+        name_of(scene, added)
     }
 
     fn add_polygon(
@@ -234,9 +253,9 @@ impl Scene {
         friction: Option<f64>,
         fixed: bool,
     ) -> PyResult<String> {
-        let AnyScene::Plane(scene) = &mut self.core else { return raised(Err(SceneError::NotInPlane)) };
+        let scene = self.plane()?;
         let added = scene.add_polygon(&vertices, options(name, density, friction, fixed));
-        raised(added.map(|index| scene.bodies()[index].name.clone()))
+        name_of(scene, added)
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -250,10 +269,10 @@ impl Scene {
         friction: Option<f64>,
         fixed: bool,
     ) -> PyResult<String> {
-        let AnyScene::Space(scene) = &mut self.core else { return raised(Err(SceneError::NotInSpace)) };
+        let scene = self.space()?;
         let pose = PoseInSpace { position: center, orientation };
         let added = scene.add_cuboid(pose, size, options(name, density, friction, fixed));
-        raised(added.map(|index| scene.bodies()[index].name.clone()))
+        name_of(scene, added)
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -267,10 +286,10 @@ impl Scene {
         friction: Option<f64>,
         fixed: bool,
     ) -> PyResult<String> {
-        let AnyScene::Space(scene) = &mut self.core else { return raised(Err(SceneError::NotInSpace)) };
+        let scene = self.space()?;
         let pose = PoseInSpace { position, orientation };
         let added = scene.add_solid(&pieces, pose, options(name, density, friction, fixed));
-        raised(added.map(|index| scene.bodies()[index].name.clone()))
+        name_of(scene, added)
     }
 
     /// The same scene in space, every block with this thickness.

@@ -23,7 +23,7 @@ from drystone.pictures.axonometry import (
 )
 from drystone.pictures.canvas import Canvas
 from drystone.pictures.seams import edges_seen
-from drystone.pictures.shapes import draw_labels, line_width
+from drystone.pictures.shapes import draw_absent, draw_labels, line_width
 
 Stroke = tuple[Path, "tuple[float, ...] | str", "tuple[float, ...] | str"]
 """An outline or a line, what fills it, and its colour."""
@@ -63,7 +63,7 @@ def draw_solids(
     """
     bodies, view = drawing.bodies, drawing.view
     if ghosts:
-        _draw_absent(canvas, [o for o in drawing.outlines if not o.fixed and o.name not in fills])
+        draw_absent(canvas, [o for o in drawing.outlines if not o.fixed and o.name not in fills])
     shown = [p for p in drawing.pieces if bodies[p.body].fixed or bodies[p.body].name in fills]
     ordered = far_to_near(shown, view)
     strokes: list[Stroke] = []
@@ -110,19 +110,6 @@ def draw_dashed(canvas: Canvas, outlines: Sequence[Points]) -> None:
             edgecolors=style.FALL,
             linestyles="dashed",
             linewidths=0.8,
-        ),
-        autolim=False,
-    )
-
-
-def _draw_absent(canvas: Canvas, outlines: Sequence[Shadow]) -> None:
-    canvas.axes.add_collection(
-        PolyCollection(
-            [outline.vertices for outline in outlines],
-            facecolors="none",
-            edgecolors=style.FAINT,
-            linestyles="dotted",
-            linewidths=0.6,
         ),
         autolim=False,
     )
