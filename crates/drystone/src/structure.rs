@@ -12,6 +12,7 @@ use drystone_lcp::{
     Counts, Status,
     cone::{ConeSolver, Membership},
 };
+use std::sync::OnceLock;
 
 /// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, even
 /// where what is there falls in between, as half an arch does: many blocks at once that nothing holds yet tie in nearly
@@ -66,7 +67,8 @@ pub struct Structure {
     /// Blocks put up, and taken away, since the solver was last told.
     new: Vec<usize>,
     gone: Vec<usize>,
-    touching: Touching,
+    /// Found when something falls.
+    touching: OnceLock<Touching>,
     /// How the structure fell when the solver was last asked.
     fell: Option<Nogood>,
 }
@@ -88,7 +90,7 @@ impl Structure {
         Self {
             rows: assembly.equilibrium_rows(),
             loads: (0..assembly.blocks()).flat_map(|block| assembly.applied(block)).copied().collect(),
-            touching: Touching::new(&assembly),
+            touching: OnceLock::new(),
             assembly,
             blocks,
             solver,
@@ -144,7 +146,8 @@ impl Structure {
     fn learn(&mut self, found: Membership) {
         self.fell = (found == Membership::Outside).then(|| {
             let collapse = certified_collapse(&self.solver, &self.rows, &self.loads);
-            Nogood::of_collapse(&collapse, &self.blocks, &self.touching)
+            let touching = self.touching.get_or_init(|| Touching::new(&self.assembly));
+            Nogood::of_collapse(&collapse, &self.blocks, touching)
         });
     }
 
