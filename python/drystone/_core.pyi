@@ -303,7 +303,13 @@ class StructureForces:
 @final
 class World:
     def __new__(
-        cls, scene: Scene, dt: float, reuse: str, restitution: float, formulation: str
+        cls,
+        scene: Scene,
+        dt: float,
+        reuse: str,
+        restitution: float,
+        formulation: str,
+        friction_cones: tuple[int, str] | None = None,
     ) -> World: ...
     def step(self) -> StepRecord: ...
     def run(
@@ -315,6 +321,8 @@ class World:
         """`progress` is called with (steps made, steps in all) a few times a second."""
     @property
     def scene(self) -> Scene: ...
+    @property
+    def dimension(self) -> int: ...
     @property
     def names(self) -> list[str]: ...
     @property
@@ -336,39 +344,14 @@ class World:
     @property
     def motionless(self) -> NDArray[np.bool_]: ...
     def forces(self) -> list[ContactForce]: ...
-    def set_velocity(self, name: str, velocity: tuple[float, float, float]) -> None: ...
+    def set_velocity(self, name: str, velocity: Sequence[float]) -> None: ...
     def apply_force(
-        self,
-        name: str,
-        force: tuple[float, float],
-        at: tuple[float, float] | None = None,
-        moment: float = 0.0,
+        self, name: str, wrench: Sequence[float], at: Sequence[float] | None = None
     ) -> None: ...
     def apply_impulse(
-        self,
-        name: str,
-        impulse: tuple[float, float],
-        at: tuple[float, float] | None = None,
-        moment: float = 0.0,
+        self, name: str, wrench: Sequence[float], at: Sequence[float] | None = None
     ) -> None: ...
-    def add_box(
-        self,
-        center: tuple[float, float],
-        size: tuple[float, float],
-        angle: float,
-        name: str | None,
-        density: float,
-        friction: float | None,
-        fixed: bool,
-    ) -> str: ...
-    def add_polygon(
-        self,
-        vertices: Sequence[tuple[float, float]],
-        name: str | None,
-        density: float,
-        friction: float | None,
-        fixed: bool,
-    ) -> str: ...
+    def extend(self, scene: Scene) -> None: ...
     def remove(self, name: str) -> None: ...
     def snapshot(self) -> bytes: ...
     @staticmethod

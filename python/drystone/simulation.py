@@ -1,4 +1,4 @@
-"""How does it move? Exact contact in the plane, step by step."""
+"""How does it move? Exact contact in the plane and in space, step by step."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
+from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
 from drystone.verdict import counted, shorten
 
@@ -65,9 +66,11 @@ class Run:
     formulation: str
     """"velocity" or "acceleration"."""
     poses: NDArray[np.float64]
-    """(k + 1, n, 3): the centroid's x and y in metres, and the angle in radians."""
+    """(k + 1, n, 3): the centroid's x and y in metres, and the angle in radians. In space
+    (k + 1, n, 7): x, y, z and a unit quaternion (w, x, y, z)."""
     velocities: NDArray[np.float64]
-    """(k + 1, n, 3): m/s, m/s, rad/s."""
+    """(k + 1, n, 3): m/s, m/s, rad/s. In space (k + 1, n, 6): m/s along x, y and z, rad/s about
+    them."""
     motionless: NDArray[np.bool_]
     """(k, n): which bodies kept their place in the step, to the bit; fixed ones do."""
     pivots: NDArray[np.int64]
@@ -104,9 +107,9 @@ class Run:
     force_bodies: NDArray[np.int64]
     """(m, 2): indices of the two bodies in `names`."""
     force_points: NDArray[np.float64]
-    """(m, 2): where, metres."""
+    """(m, 2), in space (m, 3): where, metres."""
     forces: NDArray[np.float64]
-    """(m, 2): mean force of the first body on the second in the step, N."""
+    """As many: mean force of the first body on the second in the step, N."""
     scene: Scene = field(repr=False)
     """The scene at the beginning."""
 
@@ -300,6 +303,8 @@ def simulate(
     restitution: float = 0.0,
     formulation: str = "velocity",
     velocities: Mapping[str, Sequence[float]] | None = None,
+    facets: int = FACETS,
+    cone: str = CONES[0],
     forces: bool = False,
     progress: Progress | None = None,
 ) -> Run:
@@ -318,17 +323,19 @@ def simulate(
     `formulation` says what the unknowns of a step are: on the "velocity" level impulses and
     velocities, in one problem that always has a solution; on the "acceleration" level forces and
     accelerations, after impulses where bodies collide, as in the paper. Where no forces exist (as
-    at Painlevé's rod) impulses take their place, and `Run.inconsistent` names the bodies.
+    at Painlevé's rod) impulses take their place, and `Run.inconsistent` names the bodies. In space
+    there is the "velocity" level only.
 
     `restitution` is the share of the normal velocity with which colliding bodies part (0 to 1).
-    `velocities` are (m/s, m/s, rad/s). With `forces` the run holds the contact forces of every
-    step.
+    `velocities` are (m/s, m/s, rad/s), in space six numbers: m/s along the axes, rad/s about them.
+    `facets` and `cone` ("inscribed" or "circumscribed") are the friction cones in space: see
+    `check`. With `forces` the run holds the contact forces of every step.
 
     A step that cannot be made, and Ctrl-C, end the run; its status says so, and the steps before
     are kept.
 
     Raises SimulationError for a `dt` that is not above zero, a `restitution` outside 0 to 1 or
-    numbers that are not finite, and SceneError for bodies that overlap.
+    numbers that are not finite, and SceneError for bodies that overlap or less than three facets.
 
     >>> import drystone as ds
     >>> run = ds.simulate(ds.scenes.fall7(), steps=240)
@@ -336,21 +343,38 @@ def simulate(
     ('6', '7')
     >>> run.poses.shape
     (241, 8, 3)
+    >>> boxes = ds.scenes.fall7().extruded(1.0)
+    >>> run = ds.simulate(boxes, steps=240)
+    >>> run.moving
+    ('6', '7')
+    >>> run.poses.shape
+    (241, 8, 7)
     """
     if steps < 0:
         raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
-    world = _core.World(scene._core, dt, reuse, restitution, formulation)
+    cones = core_cones(facets, cone)
+    world = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
     for name, velocity in (velocities or {}).items():
-        world.set_velocity(name, three(velocity, f'block "{name}": velocity'))
+        world.set_velocity(name, velocity_of(world, name, velocity))
     start = Scene._of(world.scene)
     return Run._of(world.run(steps, forces, progress), world, start)
 
 
-def three(value: Sequence[float], what: str) -> tuple[float, float, float]:
-    """`value` as three floats; SimulationError naming `what` otherwise."""
+def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:
+    """The velocity of a body as floats: three in the plane, six in space."""
+    units = "m/s, m/s, rad/s" if world.dimension == 2 else "m/s three times, rad/s three times"
+    return numbers(value, 3 * world.dimension - 3, f'block "{name}": velocity', units)
+
+
+def numbers(value: Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
+    """`value` as so many floats; SimulationError naming `what` otherwise."""
     try:
-        x, y, turning = value
-        return float(x), float(y), float(turning)
+        found = tuple(float(x) for x in value)
     except (TypeError, ValueError):
-        message = f"{what} must be three numbers (m/s, m/s, rad/s), not {value!r}"
-        raise _core.SimulationError(message) from None
+        found = ()
+    if len(found) != count:
+        spelled = {1: "one", 2: "two", 3: "three", 6: "six"}[count]
+        noun = "number" if count == 1 else "numbers"
+        message = f"{what} must be {spelled} {noun} ({units}), not {value!r}"
+        raise _core.SimulationError(message)
+    return found

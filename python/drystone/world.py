@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from drystone import _core
-from drystone.scene import Point, Scene, _pair
-from drystone.simulation import Progress, Run, three
+from drystone.cones import CONES, FACETS, core_cones
+from drystone.scene import UPRIGHT, Point, Scene
+from drystone.simulation import Progress, Run, numbers, velocity_of
 from drystone.verdict import ContactForce
 
 if TYPE_CHECKING:
@@ -66,9 +67,12 @@ class World:
         *,
         restitution: float = 0.0,
         formulation: str = "velocity",
+        facets: int = FACETS,
+        cone: str = CONES[0],
     ) -> None:
         """Begin with a scene at rest; the arguments and errors are those of `simulate`."""
-        self._core = _core.World(scene._core, dt, reuse, restitution, formulation)
+        cones = core_cones(facets, cone)
+        self._core = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
 
     def step(self) -> StepRecord:
         """Make one step. StepError if it cannot be made; the world is then as it was."""
@@ -109,12 +113,15 @@ class World:
 
     @property
     def poses(self) -> NDArray[np.float64]:
-        """(bodies, 3): the centroid's x and y in metres, and the angle in radians."""
+        """(bodies, 3): the centroid's x and y in metres, and the angle in radians.
+
+        In space (bodies, 7): x, y, z and a unit quaternion (w, x, y, z).
+        """
         return self._core.poses
 
     @property
     def velocities(self) -> NDArray[np.float64]:
-        """(bodies, 3): m/s, m/s, rad/s."""
+        """(bodies, 3): m/s, m/s, rad/s. In space (bodies, 6): along the axes, then about them."""
         return self._core.velocities
 
     @property
@@ -132,27 +139,68 @@ class World:
         """Mean force of the last step at every contact point that bears."""
         return tuple(ContactForce._of(force) for force in self._core.forces())
 
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return self._core.dimension
+
     def set_velocity(self, name: str, velocity: Sequence[float]) -> None:
-        """Set a body's velocity: (m/s, m/s, rad/s)."""
-        self._core.set_velocity(name, three(velocity, f'block "{name}": velocity'))
+        """Set a body's velocity: (m/s, m/s, rad/s), in space three and three numbers."""
+        self._core.set_velocity(name, velocity_of(self._core, name, velocity))
 
     def apply_force(
-        self, name: str, force: Point, at: Point | None = None, moment: float = 0.0
+        self, name: str, force: Point, at: Point | None = None, moment: float | Point | None = None
     ) -> None:
         """Push a body during the next step.
 
         `force` (N) acts at the point `at` (world coordinates, metres), at the centroid without one;
-        `moment` is in N m. Pushes add up, and end with the step.
+        `moment` is in N m, in space three numbers. Pushes add up, and end with the step.
         """
-        place = None if at is None else _pair(at, "at")
-        self._core.apply_force(name, _pair(force, "force"), place, moment)
+        self._core.apply_force(name, *self._wrench(force, at, moment, "force", "N"))
 
     def apply_impulse(
-        self, name: str, impulse: Point, at: Point | None = None, moment: float = 0.0
+        self,
+        name: str,
+        impulse: Point,
+        at: Point | None = None,
+        moment: float | Point | None = None,
     ) -> None:
         """Change a body's velocity at once by an impulse (N s) and an impulsive moment (N m s)."""
-        place = None if at is None else _pair(at, "at")
-        self._core.apply_impulse(name, _pair(impulse, "impulse"), place, moment)
+        self._core.apply_impulse(name, *self._wrench(impulse, at, moment, "impulse", "N s"))
+
+    def _wrench(
+        self,
+        force: Point,
+        at: Point | None,
+        moment: float | Point | None,
+        what: str,
+        unit: str,
+    ) -> tuple[tuple[float, ...], tuple[float, ...] | None]:
+        """Force and moment in one, and where it acts."""
+        axes = self.dimension
+        if axes == 2:
+            turning = numbers((0.0 if moment is None else moment,), 1, "moment", f"{unit} m")
+        else:
+            turning = numbers((0, 0, 0) if moment is None else moment, 3, "moment", f"{unit} m")
+        place = None if at is None else numbers(at, axes, "at", "m")
+        return numbers(force, axes, what, unit) + turning, place
+
+    def add(self, place: Callable[[Scene], str]) -> str:
+        """Add bodies at rest by whatever adds them to a scene, and return what that returns.
+
+        Raises SceneError as the scene does, and for bodies that overlap; nothing has changed then.
+
+        >>> import drystone as ds
+        >>> world = ds.World(ds.scenes.square_pyramid(2))
+        >>> world.add(lambda scene: scene.add_box((0, 0, 5), (1, 1, 1), name="from above"))
+        'from above'
+        >>> len(world.names)
+        7
+        """
+        scene = self.scene
+        name = place(scene)
+        self._core.extend(scene._core)
+        return name
 
     def add_box(
         self,
@@ -163,10 +211,14 @@ class World:
         density: float = 1.0,
         friction: float | None = None,
         fixed: bool = False,
+        *,
+        orientation: Sequence[float] = UPRIGHT,
     ) -> str:
         """Add a box at rest and return its name; see `Scene.add_box`."""
-        return self._core.add_box(
-            _pair(center, "center"), _pair(size, "size"), angle, name, density, friction, fixed
+        return self.add(
+            lambda scene: scene.add_box(
+                center, size, angle, name, density, friction, fixed, orientation=orientation
+            )
         )
 
     def add_polygon(
@@ -178,8 +230,7 @@ class World:
         fixed: bool = False,
     ) -> str:
         """Add a convex polygon at rest and return its name; see `Scene.add_polygon`."""
-        corners = [_pair(vertex, "a vertex") for vertex in vertices]
-        return self._core.add_polygon(corners, name, density, friction, fixed)
+        return self.add(lambda scene: scene.add_polygon(vertices, name, density, friction, fixed))
 
     def remove(self, name: str) -> None:
         """Take a body out. The next step starts from scratch."""

@@ -151,7 +151,7 @@ fn a_hexagon_rolls_over_its_corners() {
 
 fn momentum(world: &World) -> [f64; 3] {
     let mut total = [0.0; 3];
-    for (body, &[vx, vy, turning]) in world.scene().bodies().iter().zip(world.velocities()) {
+    for (body, [vx, vy, turning]) in world.scene().bodies().iter().zip(world.velocities()) {
         let ([x, y], m) = (body.pose.position, body.mass());
         total[0] += m * vx;
         total[1] += m * vy;

@@ -199,7 +199,9 @@ fn below_painleves_limit_the_rod_slides_by_forces() {
     assert!(record.friction_error <= 1e-9, "{record:?}");
     let contact = world.contact_impulses().into_iter().find(|contact| contact.along_normal > 0.0).unwrap();
     close(contact.along_normal / 1e-3, G / own, 1e-6 * G / own);
-    close(contact.along_tangent, -friction * contact.along_normal, 1e-9); // to the right, against t
+    // The tangent is the normal turned a quarter counter-clockwise.
+    let ([x, y], [nx, ny]) = (contact.impulse, contact.normal);
+    close(y * nx - x * ny, -friction * contact.along_normal, 1e-9); // to the right, against t
 }
 
 /// Off both ends of what forces can do: blocks that collide are given impulses first, with the rebound asked for.
@@ -274,7 +276,7 @@ fn what_is_kept_between_steps_is_in_the_snapshot() {
 
     let mut falling = world(scenes::fall7(0.5).unwrap(), 1.0 / 240.0);
     (0..250).for_each(|_| drop(falling.step().unwrap()));
-    let mut again = World::restore(&falling.snapshot()).unwrap();
+    let mut again: World = World::restore(&falling.snapshot()).unwrap();
     assert_eq!(again.options().formulation, Formulation::Acceleration);
     for _ in 0..150 {
         falling.step().unwrap();

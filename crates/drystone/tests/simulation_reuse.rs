@@ -1,7 +1,9 @@
 //! Reuse: the same motion by all three modes, less work, and states that go on bit for bit.
 
 use drystone::{
-    BodyOptions, Scene, scenes,
+    BodyOptions, Scene,
+    geometry::Polygon,
+    scenes,
     simulate::{Options, Reuse, World},
 };
 use drystone_lcp::Counts;
@@ -127,7 +129,7 @@ fn reruns_and_snapshots_are_the_same_to_the_bit() {
                 run(&mut pieces, 50);
                 assert_eq!(whole.hash(), pieces.hash(), "{reuse:?}, piece {piece}");
                 let bytes = pieces.snapshot();
-                pieces = World::restore(&bytes).unwrap();
+                pieces = World::<Polygon>::restore(&bytes).unwrap();
                 assert_eq!(bytes, pieces.snapshot());
                 assert_eq!(whole.contact_impulses(), pieces.contact_impulses());
             }
@@ -141,9 +143,9 @@ fn a_pending_push_survives_a_snapshot() {
     let mut first = world(&scenes::column(4, 0.5).unwrap(), Reuse::Full);
     run(&mut first, 5);
     let before = first.hash();
-    first.apply_force("3", [20.0, 0.0], None, 0.0).unwrap();
+    first.apply_force("3", [20.0, 0.0, 0.0], None).unwrap();
     assert_ne!(first.hash(), before);
-    let mut second = World::restore(&first.snapshot()).unwrap();
+    let mut second = World::<Polygon>::restore(&first.snapshot()).unwrap();
     run(&mut first, 10);
     run(&mut second, 10);
     assert_eq!(first.hash(), second.hash());
@@ -156,7 +158,9 @@ fn bodies_added_and_removed() {
     let mut grown = world(&scenes::column(3, 0.5).unwrap(), Reuse::Full);
     run(&mut grown, 5);
     grown
-        .add_box([0.0, 2.5], [1.0, 1.0], 0.0, BodyOptions { name: Some("3".into()), ..BodyOptions::default() })
+        .add(|scene| {
+            scene.add_box([0.0, 2.5], [1.0, 1.0], 0.0, BodyOptions { name: Some("3".into()), ..BodyOptions::default() })
+        })
         .unwrap();
     let record = grown.step().unwrap();
     assert!(record.rows_reused > 0);

@@ -1,7 +1,9 @@
 //! Bad input is a typed error, a step that cannot be made says why, and hard scenes get a right answer.
 
 use drystone::{
-    BodyOptions, Scene, SceneError, scenes,
+    BodyOptions, Scene, SceneError,
+    geometry::Polygon,
+    scenes,
     simulate::{Ending, Options, Reuse, SimulationError, StepFailure, World, run},
 };
 
@@ -32,11 +34,11 @@ fn bad_input_is_refused_by_name() {
 
     let mut world = World::new(scenes::column(3, 0.5).unwrap(), Options::default()).unwrap();
     let before = world.hash();
-    let refused = world.apply_force("1", [f64::NAN, 0.0], None, 0.0).unwrap_err();
+    let refused = world.apply_force("1", [f64::NAN, 0.0, 0.0], None).unwrap_err();
     assert!(refused.to_string().contains("\"1\"") && matches!(refused, SimulationError::NotFinite { .. }));
-    assert!(matches!(world.apply_impulse("ground", [1.0, 0.0], None, 0.0), Err(SimulationError::Fixed { .. })));
+    assert!(matches!(world.apply_impulse("ground", [1.0, 0.0, 0.0], None), Err(SimulationError::Fixed { .. })));
     assert!(matches!(world.set_velocity("7", [0.0; 3]), Err(SimulationError::Scene(SceneError::UnknownName { .. }))));
-    assert!(world.add_box([0.0, 0.5], [1.0, 1.0], 0.0, named("new")).is_err());
+    assert!(world.add(|scene| scene.add_box([0.0, 0.5], [1.0, 1.0], 0.0, named("new"))).is_err());
     assert_eq!(world.hash(), before);
 }
 
@@ -46,14 +48,17 @@ fn damaged_snapshots_are_refused() {
     world.step().unwrap();
     let bytes = world.snapshot();
     for length in (0..bytes.len()).step_by(97) {
-        assert!(matches!(World::restore(&bytes[..length]), Err(SimulationError::Snapshot { .. })), "{length}");
+        assert!(
+            matches!(World::<Polygon>::restore(&bytes[..length]), Err(SimulationError::Snapshot { .. })),
+            "{length}"
+        );
     }
     let text = String::from_utf8(bytes).unwrap();
     for (what, other) in
         [("drystone-world", "other"), ("\"steps\":1", "\"steps\":-1"), ("\"sliding\":[", "\"sliding\":[0.5,")]
     {
         assert!(text.contains(what));
-        assert!(World::restore(text.replacen(what, other, 1).as_bytes()).is_err(), "{what}");
+        assert!(World::<Polygon>::restore(text.replacen(what, other, 1).as_bytes()).is_err(), "{what}");
     }
 }
 

@@ -21,3 +21,9 @@ impl From<[f64; 2]> for Coordinates {
         Self::Plane((x, y))
     }
 }
+
+impl From<[f64; 3]> for Coordinates {
+    fn from([x, y, z]: [f64; 3]) -> Self {
+        Self::Space((x, y, z))
+    }
+}

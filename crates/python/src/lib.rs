@@ -8,11 +8,12 @@ mod lcp;
 mod lcp_solver;
 mod plan;
 mod recording;
+mod run;
 mod scene;
-mod simulate;
 mod structure;
 mod verdict;
 mod watch;
+mod world;
 
 use pyo3::prelude::*;
 
@@ -33,9 +34,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<recording::Recording>()?;
     module.add_class::<recording::Replay>()?;
     module.add_class::<forces::StructureForces>()?;
-    module.add_class::<simulate::World>()?;
-    module.add_class::<simulate::StepRecord>()?;
-    module.add_class::<simulate::Run>()?;
+    module.add_class::<world::World>()?;
+    module.add_class::<run::StepRecord>()?;
+    module.add_class::<run::Run>()?;
     module.add_class::<lcp::LcpSolution>()?;
     module.add_class::<lcp_solver::LcpSolver>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;

@@ -76,7 +76,7 @@ fn raised<T>(result: Result<T, SceneError>) -> PyResult<T> {
 }
 
 /// Friction cones by the name of their bound; without a choice the default ones.
-fn cones(choice: Option<(usize, String)>) -> PyResult<Cones> {
+pub fn cones(choice: Option<(usize, String)>) -> PyResult<Cones> {
     let Some((facets, bound)) = choice else { return Ok(Cones::default()) };
     let bound = match bound.as_str() {
         "inscribed" => formulate::Bound::Inscribed,

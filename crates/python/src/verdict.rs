@@ -2,9 +2,10 @@
 
 use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::Watch};
 use drystone::{
+    Body,
     check::{Route, check_while},
     formulate::Assembly,
-    simulate::ContactImpulse,
+    simulate::{ContactImpulse, Moving},
 };
 use numpy::PyArray2;
 use pyo3::{
@@ -43,8 +44,13 @@ pub struct Verdict {
 
 impl ContactForce {
     /// The mean force of a step of length `dt`.
-    pub fn of_impulse(bodies: &[drystone::Body], contact: &ContactImpulse, dt: f64) -> Self {
+    pub fn of_impulse<S: Moving>(bodies: &[Body<S>], contact: &ContactImpulse<S::Vector>, dt: f64) -> Self
+    where
+        S::Vector: Into<Coordinates>,
+    {
         let [a, b] = contact.id.bodies.map(|body| bodies[body].name.clone());
+        let mut force = contact.impulse;
+        force.as_mut().iter_mut().for_each(|p| *p /= dt);
         Self {
             a,
             b,
@@ -52,8 +58,8 @@ impl ContactForce {
             point: contact.point.into(),
             normal: contact.normal.into(),
             normal_force: contact.along_normal / dt,
-            tangential_force: contact.along_tangent / dt,
-            force: contact.impulse().map(|p| p / dt).into(),
+            tangential_force: contact.tangential() / dt,
+            force: force.into(),
         }
     }
 }

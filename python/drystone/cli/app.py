@@ -224,6 +224,10 @@ def simulate(
         Formulation,
         typer.Option(help="Impulses and velocities, or forces and accelerations (Baraff's)."),
     ] = Formulation.velocity,
+    facets: Facets = 8,
+    cone: Annotated[
+        Cone, typer.Option(help="In space: cones within or around the round ones.")
+    ] = Cone.inscribed,
     forces: Annotated[
         bool, typer.Option("--forces", help="Record the contact forces of every step.")
     ] = False,
@@ -243,6 +247,8 @@ def simulate(
         reuse.value,
         restitution,
         formulation.value,
+        facets,
+        cone.value,
         forces,
         as_json,
         output,

@@ -24,6 +24,8 @@ def run(
     reuse: str,
     restitution: float,
     formulation: str,
+    facets: int,
+    cone: str,
     forces: bool,
     as_json: bool,
     output: Path | None,
@@ -41,6 +43,8 @@ def run(
             reuse,
             restitution=restitution,
             formulation=formulation,
+            facets=facets,
+            cone=cone,
             forces=forces,
             progress=progress,
         )

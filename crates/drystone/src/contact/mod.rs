@@ -11,6 +11,8 @@
 //! value for all instead, for scenes whose coordinates were rounded.
 
 pub mod approach;
+mod approach_in_plane;
+mod approach_in_space;
 mod broad_phase;
 mod id;
 mod narrow_phase;

@@ -28,7 +28,7 @@ pub(super) struct TouchPoint {
 /// A block's corners turned into world axes but still relative to its centroid (so that nothing
 /// is lost far from the world's origin), with the outward unit normal of each face.
 #[derive(Debug, Clone)]
-pub(super) struct Outline {
+pub struct Outline {
     pub vertices: Vec<Vector>,
     pub normals: Vec<Vector>,
 }

@@ -24,15 +24,26 @@ pub(super) enum Between {
     Edges(Edge, Edge),
 }
 
-/// The greatest separation along a face's normal. `b` stands at `offset` from `a`. Of equal faces the first, a's before b's.
-pub(super) fn along_faces(a: &Polyhedron, b: &Polyhedron, offset: Vector3) -> Separation {
+/// The greatest separation along a face's normal. `b` stands at `offset` from `a`. Of equal faces the first, a's before b's,
+/// and a's too where b's is greater by no more than `bias`, metres.
+pub(super) fn along_faces(a: &Polyhedron, b: &Polyhedron, offset: Vector3, bias: f64) -> Separation {
     let (face_a, distance_a) = greatest(a, b, offset);
     let (face_b, distance_b) = greatest(b, a, -offset);
-    if distance_a >= distance_b {
+    if distance_a + bias >= distance_b {
         Separation { distance: distance_a, normal: a.normals()[face_a], between: Between::FaceOfA(face_a) }
     } else {
         Separation { distance: distance_b, normal: -b.normals()[face_b], between: Between::FaceOfB(face_b) }
     }
+}
+
+/// Every plane that may part the two: their Minkowski difference's faces.
+pub(super) fn planes(a: &Polyhedron, b: &Polyhedron, offset: Vector3) -> Vec<Separation> {
+    let of = |normal: Vector3, between| Separation { distance: gap_along(normal, a, b, offset), normal, between };
+    let of_a = a.normals().iter().enumerate().map(|(face, normal)| of(*normal, Between::FaceOfA(face)));
+    let of_b = b.normals().iter().enumerate().map(|(face, normal)| of(-*normal, Between::FaceOfB(face)));
+    let mut planes: Vec<Separation> = of_a.chain(of_b).collect();
+    for_each_crossing(a, b, |edge_a, edge_b, normal| planes.push(of(normal, Between::Edges(*edge_a, *edge_b))));
+    planes
 }
 
 fn greatest(reference: &Polyhedron, other: &Polyhedron, offset: Vector3) -> (usize, f64) {
@@ -54,6 +65,21 @@ const PARALLEL: f64 = 1e-9;
 /// The greatest separation along a direction square to an edge of each, if there is such a pair.
 pub(super) fn along_edges(a: &Polyhedron, b: &Polyhedron, offset: Vector3) -> Option<Separation> {
     let mut best: Option<Separation> = None;
+    for_each_crossing(a, b, |edge_a, edge_b, normal| {
+        let (on_a, on_b) = (a.vertices()[edge_a.ends[0]], b.vertices()[edge_b.ends[0]] + offset);
+        let better = |distance: f64| best.is_none_or(|best| distance > best.distance);
+        // Where rounding takes arcs to cross that do not, the edges are not the outermost: all corners decide.
+        let distance = normal.dot(on_b - on_a);
+        if better(distance) && better(gap_along(normal, a, b, offset)) {
+            let distance = gap_along(normal, a, b, offset);
+            best = Some(Separation { distance, normal, between: Between::Edges(*edge_a, *edge_b) });
+        }
+    });
+    best
+}
+
+/// The pairs of edges that span a face of the Minkowski difference, with its unit normal out of `a`.
+fn for_each_crossing<'a>(a: &'a Polyhedron, b: &'a Polyhedron, mut found: impl FnMut(&'a Edge, &'a Edge, Vector3)) {
     for edge_a in a.edges() {
         let along_a = direction(a, edge_a);
         let [a0, a1] = edge_a.faces.map(|face| a.normals()[face]);
@@ -65,22 +91,12 @@ pub(super) fn along_edges(a: &Polyhedron, b: &Polyhedron, offset: Vector3) -> Op
             }
             let across = along_a.cross(along_b);
             let sine = across.length();
-            if sine <= PARALLEL {
-                continue;
-            }
-            // Out of a: on the side of the faces beside its edge.
-            let normal = if across.dot(a0 + a1) < 0.0 { -across / sine } else { across / sine };
-            let (on_a, on_b) = (a.vertices()[edge_a.ends[0]], b.vertices()[edge_b.ends[0]] + offset);
-            let better = |distance: f64| best.is_none_or(|best| distance > best.distance);
-            // Where rounding takes arcs to cross that do not, the edges are not the outermost: all corners decide.
-            let distance = normal.dot(on_b - on_a);
-            if better(distance) && better(gap_along(normal, a, b, offset)) {
-                let distance = gap_along(normal, a, b, offset);
-                best = Some(Separation { distance, normal, between: Between::Edges(*edge_a, *edge_b) });
+            if sine > PARALLEL {
+                // Out of a: on the side of the faces beside its edge.
+                found(edge_a, edge_b, if across.dot(a0 + a1) < 0.0 { -across / sine } else { across / sine });
             }
         }
     }
-    best
 }
 
 /// How far b lies beyond a along a direction, metres.

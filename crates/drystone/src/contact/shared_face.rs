@@ -36,6 +36,13 @@ struct Plane {
 }
 
 impl Plane {
+    fn of(reference: &Polyhedron, face: usize) -> Self {
+        let (corners, normal) = (&reference.faces()[face], reference.normals()[face]);
+        let origin = reference.vertices()[corners[0]];
+        let u = (reference.vertices()[corners[1]] - origin).normalize_or_zero();
+        Self { origin, normal, u, v: normal.cross(u) }
+    }
+
     fn flat(&self, vertex: usize, point: Vector3) -> Flat {
         let from = point - self.origin;
         Flat { vertex, at: [self.u.dot(from), self.v.dot(from)], height: self.normal.dot(from) }
@@ -55,13 +62,45 @@ pub(super) fn shared_corners(
     offset: Vector3,
     tolerance: f64,
 ) -> Vec<SharedCorner> {
+    let plane = Plane::of(reference, face);
+    let flat = other.vertices().iter().enumerate().map(|(k, v)| plane.flat(k, *v + offset));
+    let print = print_of(flat.filter(|flat| flat.height <= tolerance).collect());
+    // What an inner point of the print belongs to: its edge, or the face of the other that looks against this one.
+    let inner = match print[..] {
+        [a, b] => corner_or_edge([a.vertex, b.vertex]),
+        _ => SolidPart::Face(most_opposed(other, 0..other.faces().len(), plane.normal)),
+    };
+    common(&plane, (reference, face), (&print, inner), tolerance)
+}
+
+/// The same of what is before the face, at whatever height. The print is a face of `other` at its lowest corner: the one that
+/// looks most against the reference.
+pub(super) fn facing_corners(
+    reference: &Polyhedron,
+    face: usize,
+    other: &Polyhedron,
+    offset: Vector3,
+    tolerance: f64,
+) -> Vec<SharedCorner> {
+    let plane = Plane::of(reference, face);
+    let height = |k: usize| plane.normal.dot(other.vertices()[k]);
+    let lowest = (1..other.vertices().len()).fold(0, |low, k| if height(k) < height(low) { k } else { low });
+    let at_lowest = (0..other.faces().len()).filter(|&face| other.faces()[face].contains(&lowest));
+    let opposed = most_opposed(other, at_lowest, plane.normal);
+    let near = other.faces()[opposed].iter().map(|&k| plane.flat(k, other.vertices()[k] + offset)).collect();
+    common(&plane, (reference, face), (&print_of(near), SolidPart::Face(opposed)), tolerance)
+}
+
+/// The corners of the intersection of a face with a print on its plane; `inner` is what points within the print belong to.
+fn common(
+    plane: &Plane,
+    (reference, face): (&Polyhedron, usize),
+    (print, inner): (&[Flat], SolidPart),
+    tolerance: f64,
+) -> Vec<SharedCorner> {
     let corners = &reference.faces()[face];
-    let normal = reference.normals()[face];
-    let u = (reference.vertices()[corners[1]] - reference.vertices()[corners[0]]).normalize_or_zero();
-    let plane = Plane { origin: reference.vertices()[corners[0]], normal, u, v: normal.cross(u) };
     let outline: Vec<Flat> = corners.iter().map(|&k| plane.flat(k, reference.vertices()[k])).collect();
-    let print = print(&plane, other, offset, tolerance);
-    let shared = intersection(&outline, &print, tolerance);
+    let shared = intersection(&outline, print, tolerance);
     if !reaches_inside(&shared, &outline, tolerance) {
         return Vec::new();
     }
@@ -69,16 +108,11 @@ pub(super) fn shared_corners(
         None => SolidPart::Face(face),
         Some(ends) => corner_or_edge(ends),
     };
-    // What an inner point of the print belongs to: its edge, or the face of the other that looks against this one.
-    let inside_print = || match print[..] {
-        [a, b] => corner_or_edge([a.vertex, b.vertex]),
-        _ => SolidPart::Face(most_opposed(other, normal)),
-    };
     let corner = |meeting: &Meeting| SharedCorner {
         point: plane.point(meeting.at),
         gap: meeting.height,
         reference: on_face(meeting.outline),
-        other: meeting.print.map_or_else(inside_print, corner_or_edge),
+        other: meeting.print.map_or(inner, corner_or_edge),
     };
     shared.iter().map(corner).collect()
 }
@@ -87,16 +121,14 @@ fn corner_or_edge([a, b]: [usize; 2]) -> SolidPart {
     if a == b { SolidPart::Corner(a) } else { SolidPart::Edge([a.min(b), a.max(b)]) }
 }
 
-/// The face whose normal looks most against a direction. Of equal faces the first.
-fn most_opposed(of: &Polyhedron, direction: Vector3) -> usize {
-    let alignments = of.normals().iter().map(|normal| normal.dot(direction)).enumerate();
+/// Of some faces the one whose normal looks most against a direction. Of equal faces the first.
+fn most_opposed(of: &Polyhedron, faces: impl Iterator<Item = usize>, direction: Vector3) -> usize {
+    let alignments = faces.map(|face| (face, of.normals()[face].dot(direction)));
     alignments.fold((0, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best }).0
 }
 
-/// The corners of the other polyhedron on the plane, counter-clockwise.
-fn print(plane: &Plane, other: &Polyhedron, offset: Vector3, tolerance: f64) -> Vec<Flat> {
-    let flat = other.vertices().iter().enumerate().map(|(k, v)| plane.flat(k, *v + offset));
-    let near: Vec<Flat> = flat.filter(|flat| flat.height <= tolerance).collect();
+/// The outline of corners of the other polyhedron on the plane, counter-clockwise.
+fn print_of(near: Vec<Flat>) -> Vec<Flat> {
     let outline = convex_outline(near.iter().enumerate().map(|(k, flat)| (k, flat.at)).collect(), 0.0);
     outline.into_iter().map(|k| near[k]).collect()
 }

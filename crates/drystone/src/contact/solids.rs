@@ -2,11 +2,10 @@
 
 use super::{
     ContactSet, Feature,
-    broad_phase::pairs_in_space,
+    broad_phase::candidate_pairs,
     id::{SolidFeature, SolidPart},
     separation::{Between, Separation, along_edges, along_faces, direction},
     shared_face::{SharedCorner, shared_corners},
-    tolerance_of,
     touch::{Pressing, Touch, contacts_of},
 };
 use crate::{
@@ -17,26 +16,32 @@ use crate::{
 
 /// A body's pieces turned into world axes, but still about its centroid, so that nothing is lost far from the world's
 /// origin.
-struct Placed {
-    pieces: Vec<Polyhedron>,
+#[derive(Debug, Clone)]
+pub struct Placed {
+    pub(super) pieces: Vec<Polyhedron>,
+    /// Principal axes.
+    pub(super) axes: [Vector3; 3],
 }
 
 impl Placed {
-    fn of(body: &Body<Solid>) -> Self {
+    pub(super) fn of(body: &Body<Solid>) -> Self {
         let [x, y, z] = body.pose.axes();
         let rotate = |v: Vector3| v.x * x + v.y * y + v.z * z;
-        Self { pieces: body.shape.pieces().iter().map(|piece| piece.turned(rotate)).collect() }
+        Self {
+            pieces: body.shape.pieces().iter().map(|piece| piece.turned(rotate)).collect(),
+            axes: body.shape.principal_axes().map(rotate),
+        }
     }
 }
 
 /// A contact point relative to the first body's centroid.
 #[derive(Debug, Clone, Copy)]
-struct TouchPoint {
-    features: [SolidFeature; 2],
-    point: Vector3,
+pub(super) struct TouchPoint {
+    pub features: [SolidFeature; 2],
+    pub point: Vector3,
     /// Unit vector from the first body into the second.
-    normal: Vector3,
-    gap: f64,
+    pub normal: Vector3,
+    pub gap: f64,
 }
 
 /// Finds all contacts between the blocks of a scene in space; see [`super::find_contacts`].
@@ -45,10 +50,8 @@ struct TouchPoint {
 /// [`SceneError::Overlap`].
 pub fn find_solid_contacts(scene: &SceneOf<Solid>) -> Result<ContactSet, SceneError> {
     let bodies = scene.bodies();
-    let boxes = |i: usize| bounds(bodies[i].shape.vertices().map(|v| bodies[i].pose.transform(v)));
-    let pairs = pairs_in_space(bodies.len(), |i| bodies[i].fixed, boxes, |i| tolerance_of(scene, &bodies[i]));
     let placed: Vec<Placed> = bodies.iter().map(Placed::of).collect();
-    contacts_of(scene, &pairs, |[a, b], tolerance| {
+    contacts_of(scene, &candidate_pairs(scene), |[a, b], tolerance| {
         let origin = Vector3::from_array(bodies[a].pose.position);
         let offset = Vector3::from_array(bodies[b].pose.position) - origin;
         touch_of_bodies(&placed[a], &placed[b], offset, tolerance).map(|p| Pressing {
@@ -109,7 +112,7 @@ fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> T
 /// How two convex pieces touch; the second stands at `offset` from the first.
 fn touch(pieces: [&Polyhedron; 2], numbers: [usize; 2], offset: Vector3, tolerance: f64) -> Touch<TouchPoint> {
     let [a, b] = pieces;
-    let faces = along_faces(a, b, offset);
+    let faces = along_faces(a, b, offset, 0.0);
     if faces.distance > tolerance {
         return Touch::Apart;
     }
@@ -163,7 +166,7 @@ fn at_face(
 }
 
 /// The point where two edges cross, if it lies within both by more than the tolerance.
-fn at_edges(
+pub(super) fn at_edges(
     [a, b]: [&Polyhedron; 2],
     numbers: [usize; 2],
     offset: Vector3,

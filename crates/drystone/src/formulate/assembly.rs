@@ -56,9 +56,7 @@ impl Assembly {
     /// # Errors
     /// [`SceneError::Overlap`] if blocks overlap; [`SceneError::TooFewFacets`].
     pub fn with_cones<S: Assemble>(scene: &SceneOf<S>, cones: Cones) -> Result<Self, SceneError> {
-        if cones.facets < 3 {
-            return Err(SceneError::TooFewFacets { facets: cones.facets });
-        }
+        cones.check()?;
         let bodies: Vec<Part> = scene.bodies().iter().map(S::part).collect();
         let movable: Vec<usize> = (0..bodies.len()).filter(|&i| !bodies[i].fixed).collect();
         let components = S::COMPONENTS;

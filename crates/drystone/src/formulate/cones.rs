@@ -5,10 +5,15 @@
 //! it). What stands within the inscribed pyramids stands; what falls within the circumscribed ones falls. The two
 //! come together as 1 - cos(pi / k).
 
-use crate::geometry::{cross, dot, length};
+use crate::{
+    error::SceneError,
+    geometry::{cross, dot, length},
+};
+use serde::{Deserialize, Serialize};
 
 /// Whether the pyramids lie within Coulomb's cones or around them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Bound {
     /// Within: a verdict "stands" is never due to the pyramid.
     #[default]
@@ -18,7 +23,7 @@ pub enum Bound {
 }
 
 /// How round cones are replaced. In the plane there is nothing to replace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cones {
     /// Edges of a cone, at least 3.
     pub facets: usize,
@@ -36,8 +41,14 @@ impl Default for Cones {
 }
 
 impl Cones {
+    /// # Errors
+    /// [`SceneError::TooFewFacets`].
+    pub(crate) fn check(self) -> Result<(), SceneError> {
+        if self.facets < 3 { Err(SceneError::TooFewFacets { facets: self.facets }) } else { Ok(()) }
+    }
+
     /// The coefficient at the edges of a cone in space.
-    fn at_edges(self, friction: f64) -> f64 {
+    pub(crate) fn at_edges(self, friction: f64) -> f64 {
         match self.bound {
             Bound::Inscribed => friction,
             Bound::Circumscribed => friction / (std::f64::consts::PI / self.facets as f64).cos(),

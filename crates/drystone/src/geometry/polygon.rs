@@ -138,6 +138,18 @@ impl Shape for Polygon {
     fn width(&self) -> f64 {
         self.width
     }
+
+    fn place(pose: &Pose) -> [f64; 2] {
+        pose.position
+    }
+
+    fn bounds(&self, pose: &Pose) -> [[f64; 2]; 2] {
+        let (place, turn) = (Vector::from_array(pose.position), pose.turn());
+        let corners = || self.vertices.iter().map(|&v| turn(v) + place);
+        let least = corners().fold(Vector::INFINITY, Vector::min);
+        let most = corners().fold(Vector::NEG_INFINITY, Vector::max);
+        [least.to_array(), most.to_array()]
+    }
 }
 
 /// Refuses what is no polygon at all; returns the larger side of the bounding box.

@@ -35,4 +35,23 @@ impl PoseInSpace {
     pub fn transform(&self, v: Vector3) -> Vector3 {
         Vector3::from_array(self.position) + self.rotate(v)
     }
+
+    /// The frame after a turn about an axis of its own: along `turn`, by its length in radians.
+    pub fn turned(&self, turn: Vector3) -> Self {
+        let angle = turn.length();
+        if angle == 0.0 {
+            return *self;
+        }
+        let (sin, cos) = (0.5 * angle).sin_cos();
+        let v = turn * (sin / angle);
+        let ([w, x, y, z], [b, c, d]) = (self.orientation, v.to_array());
+        let product = [
+            w * cos - x * b - y * c - z * d,
+            w * b + x * cos + y * d - z * c,
+            w * c - x * d + y * cos + z * b,
+            w * d + x * c - y * b + z * cos,
+        ];
+        let length = product.iter().map(|q| q * q).sum::<f64>().sqrt();
+        Self { orientation: product.map(|q| q / length), ..*self }
+    }
 }

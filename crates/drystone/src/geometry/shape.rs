@@ -1,13 +1,35 @@
 //! What a scene asks of the shape of a block, in the plane and in space.
 
+use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
+
+/// A fixed count of numbers: `[f64; 2]`, `[f64; 3]`, `[f64; 6]`.
+pub trait Numbers:
+    Copy + Debug + Default + PartialEq + AsRef<[f64]> + AsMut<[f64]> + Serialize + DeserializeOwned + Send + Sync + 'static
+{
+}
+
+impl<T> Numbers for T where
+    T: Copy
+        + Debug
+        + Default
+        + PartialEq
+        + AsRef<[f64]>
+        + AsMut<[f64]>
+        + Serialize
+        + DeserializeOwned
+        + Send
+        + Sync
+        + 'static
+{
+}
 
 /// The shape of one block in its own frame, whose origin is the centroid.
 pub trait Shape: Clone + Debug + PartialEq {
     /// A point or a vector: `[f64; 2]` or `[f64; 3]`.
-    type Vector: Copy + Debug + PartialEq + AsRef<[f64]>;
+    type Vector: Numbers;
     /// Where the frame stands in the world.
-    type Pose: Copy + Debug + PartialEq;
+    type Pose: Copy + Debug + PartialEq + Send + Sync + 'static;
 
     /// Area in m^2, or volume in m^3.
     fn measure(&self) -> f64;
@@ -20,4 +42,10 @@ pub trait Shape: Clone + Debug + PartialEq {
 
     /// Distance of two parallel lines or planes that hold the shape between them, metres: the least over those along a face.
     fn width(&self) -> f64;
+
+    /// Where the frame's origin, the centroid, is in the world, metres.
+    fn place(pose: &Self::Pose) -> Self::Vector;
+
+    /// Lower and upper corner of the box around the shape where its frame stands, world coordinates, metres.
+    fn bounds(&self, pose: &Self::Pose) -> [Self::Vector; 2];
 }

@@ -15,6 +15,7 @@ pub struct Solid {
     moments: [f64; 3],
     /// Unit vectors of the principal axes in the body's frame.
     axes: [Vector3; 3],
+    radius: f64,
     width: f64,
 }
 
@@ -59,7 +60,8 @@ impl Solid {
         let (volume, _, second) = integrals(&pieces);
         let (moments, axes) = principal(second);
         let width = least_width(&pieces);
-        Self { pieces, volume, moments, axes, width }
+        let radius = pieces.iter().flat_map(Polyhedron::vertices).fold(0.0, |radius, v| v.length().max(radius));
+        Self { pieces, volume, moments, axes, radius, width }
     }
 
     /// The convex pieces, about the centroid.
@@ -91,11 +93,23 @@ impl Shape for Solid {
     }
 
     fn radius(&self) -> f64 {
-        self.vertices().fold(0.0, |radius, v| v.length().max(radius))
+        self.radius
     }
 
     fn width(&self) -> f64 {
         self.width
+    }
+
+    fn place(pose: &PoseInSpace) -> [f64; 3] {
+        pose.position
+    }
+
+    fn bounds(&self, pose: &PoseInSpace) -> [[f64; 3]; 2] {
+        let (place, [x, y, z]) = (Vector3::from_array(pose.position), pose.axes());
+        let corners = || self.vertices().map(|v| v.x * x + v.y * y + v.z * z + place);
+        let least = corners().fold(Vector3::INFINITY, Vector3::min);
+        let most = corners().fold(Vector3::NEG_INFINITY, Vector3::max);
+        [least.to_array(), most.to_array()]
     }
 }
 

@@ -1,4 +1,6 @@
-//! Vectors of three numbers, as they stand in contacts, wrenches and directions.
+//! Vectors as they stand in contacts, wrenches and directions: of three numbers, and of as many as the dimension asks for.
+
+use super::shape::Numbers;
 
 /// A cross product this short, of unit vectors, is that of parallel ones.
 const PARALLEL: f64 = 1e-9;
@@ -27,4 +29,25 @@ pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 /// Length of a vector. In the plane, where z is 0, that of the two others to the bit.
 pub(crate) fn length([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).hypot(z)
+}
+
+/// Scalar product, in any dimension.
+pub(crate) fn product<V: Numbers>(a: &V, b: &V) -> f64 {
+    a.as_ref().iter().zip(b.as_ref()).map(|(a, b)| a * b).sum()
+}
+
+/// `a + share b`, in any dimension.
+pub(crate) fn plus_times<V: Numbers>(mut a: V, share: f64, b: &V) -> V {
+    a.as_mut().iter_mut().zip(b.as_ref()).for_each(|(a, b)| *a += share * b);
+    a
+}
+
+/// The difference, in any dimension.
+pub(crate) fn minus_of<V: Numbers>(a: V, b: &V) -> V {
+    plus_times(a, -1.0, b)
+}
+
+/// Length, in any dimension.
+pub(crate) fn norm(a: &[f64]) -> f64 {
+    a.iter().fold(0.0, |length: f64, x| length.hypot(*x))
 }

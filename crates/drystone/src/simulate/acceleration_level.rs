@@ -30,7 +30,7 @@ use super::{
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
     world::World,
 };
-use crate::contact::ContactId;
+use crate::{contact::ContactId, geometry::Polygon};
 use drystone_lcp::Counts;
 use std::{mem, time::Instant};
 
@@ -57,13 +57,13 @@ pub(super) struct AccelerationLevel;
 /// Velocities after collisions, and what they took.
 struct Collided {
     velocities: Vec<Velocity>,
-    /// Impulse at every approach, along the normal and the tangent, N s.
+    /// Impulse at every approach in world axes, N s.
     impulses: Vec<[f64; 2]>,
     contacts: usize,
     motion: Option<Motion>,
 }
 
-impl Law for AccelerationLevel {
+impl Law<Polygon> for AccelerationLevel {
     fn motion(&self, world: &mut World, contacts: &VelocityLevel, free: &[Velocity]) -> Result<Motion, StepFailure> {
         let islands = Islands::new(contacts, &world.inverse_mass);
         let collided = collide(world, contacts, &islands, free)?;
@@ -145,9 +145,10 @@ fn collide(
     }
     let mut members: Vec<usize> = islands.with(contacts, |k| colliding.binary_search(&k).is_ok()).concat();
     members.sort_unstable();
-    let part = VelocityLevel::new(members.iter().map(|&k| contacts.approaches()[k]).collect());
-    let offset = |approach| world.rebound(approach, free).unwrap_or(approach.gap.max(0.0) / dt);
-    let offsets: Vec<f64> = part.approaches().iter().map(offset).collect();
+    let part = world.problem_of(members.iter().map(|&k| contacts.approaches()[k]).collect());
+    let gap = |k: usize| part.approaches()[k].gap.max(0.0);
+    let offset = |k: usize| world.rebound(&part, k, free).unwrap_or(gap(k) / dt);
+    let offsets: Vec<f64> = (0..members.len()).map(offset).collect();
 
     let route = mem::replace(&mut world.route, Reuse::None.route());
     let before = world.before.take();
@@ -201,7 +202,8 @@ fn solve_others(
     }
     for island in found {
         for (&k, impulse) in island.members.iter().zip(&island.motion.impulses) {
-            motion.impulses[k] = *impulse;
+            let ([p_n, p_t], [nx, ny]) = (*impulse, contacts.approaches()[k].normal);
+            motion.impulses[k] = [p_n * nx - p_t * ny, p_n * ny + p_t * nx];
             motion.sliding[k] = normal_and_tangential(&contacts.approaches()[k], &motion.velocities)[1].abs();
         }
         motion.add_work(island.work.solves, island.work.counts, island.residual);

@@ -1,9 +1,9 @@
 //! How far a motion is from Coulomb's law, computed from the motion alone, whatever it was found by.
 
-use super::velocity_level::{Velocity, VelocityLevel, normal_and_tangential, wrench};
-use crate::contact::approach::Approach;
+use super::velocity_level::{Velocity, VelocityLevel, in_frame, normal_and_tangential, wrench};
+use crate::{contact::approach::Approach, geometry::Polygon};
 
-/// Largest departure over some approaches, m/s. `impulses`: along the normal and the tangent of each, N s; `offsets`: how
+/// Largest departure over some approaches, m/s. `impulses`: in world axes, N s; `offsets`: how
 /// fast each may close, m/s. An impulse counts with the speed that it gives at its own contact.
 pub(super) fn departure(
     contacts: &VelocityLevel,
@@ -16,7 +16,7 @@ pub(super) fn departure(
         let motion = normal_and_tangential(approach, velocities);
         let [nx, ny] = approach.normal;
         let given = [[nx, ny], [-ny, nx]].map(|direction| yielding(approach, direction, inverse_mass));
-        at_contact(approach.friction, motion, impulses[k], offsets[k], given)
+        at_contact(approach.friction, motion, in_frame(approach, impulses[k]), offsets[k], given)
     };
     contacts.approaches().iter().enumerate().map(of).fold(0.0, f64::max)
 }
@@ -34,7 +34,7 @@ fn at_contact(friction: f64, [u_n, u_t]: [f64; 2], [p_n, p_t]: [f64; 2], offset:
 /// Relative speed along a direction that a unit impulse along it gives: `d' J M^-1 J' d`, 1/kg.
 fn yielding(approach: &Approach, direction: [f64; 2], inverse_mass: &[[f64; 3]]) -> f64 {
     let of = |side: usize| {
-        let wrench = wrench(approach.arms[side], direction);
+        let wrench = wrench::<Polygon>(&approach.levers[side], &direction, 1.0);
         let mass = inverse_mass[approach.id.bodies[side]];
         (0..3).map(|axis| mass[axis] * wrench[axis] * wrench[axis]).sum::<f64>()
     };

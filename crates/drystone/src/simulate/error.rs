@@ -19,6 +19,12 @@ pub enum SimulationError {
         /// The value.
         value: f64,
     },
+    /// A formulation that there is in the plane only.
+    #[error("formulation \"{formulation}\" is for scenes in the plane: in space give \"velocity\"")]
+    NoSuchLaw {
+        /// What was asked for.
+        formulation: &'static str,
+    },
     /// A NaN or an infinity in a force, an impulse or a velocity.
     #[error("block \"{body}\": {quantity} is {value}: give finite numbers")]
     NotFinite {
@@ -37,6 +43,9 @@ pub enum SimulationError {
         /// What was given.
         quantity: &'static str,
     },
+    /// A scene to be taken up that does not begin with the world's bodies.
+    #[error("the scene does not begin with the world's bodies as they are now: add to a copy of the world's scene")]
+    OtherBodies,
     /// Bytes that are no snapshot of a world, or a damaged one.
     #[error("this is no snapshot of a world: {reason}")]
     Snapshot {

@@ -1,13 +1,6 @@
 //! The laws of motion that a step can be made by, behind one trait.
 
-use super::{
-    acceleration_level::AccelerationLevel,
-    error::StepFailure,
-    solve::Motion,
-    velocity_level::{Velocity, VelocityLevel},
-    world::World,
-};
-use crate::contact::approach::Approach;
+use super::{error::StepFailure, moving::Moving, solve::Motion, velocity_level::VelocityLevel, world::World};
 use serde::{Deserialize, Serialize};
 
 /// What the unknowns of a step are.
@@ -30,33 +23,36 @@ impl Formulation {
             Self::Acceleration => "acceleration",
         }
     }
-
-    pub(super) fn law(self) -> &'static dyn Law {
-        match self {
-            Self::Velocity => &ByVelocity,
-            Self::Acceleration => &AccelerationLevel,
-        }
-    }
 }
 
 /// How the velocities at the end of a step follow from those at its beginning. Contacts before and integration after
 /// are the same for all.
-pub(super) trait Law {
+pub trait Law<S: Moving>: Sync {
     /// Solves a step. `free` (bodies) are the velocities without contacts, `v* = v + h M^-1 F`.
-    fn motion(&self, world: &mut World, contacts: &VelocityLevel, free: &[Velocity]) -> Result<Motion, StepFailure>;
+    fn motion(
+        &self,
+        world: &mut World<S>,
+        contacts: &VelocityLevel<S>,
+        free: &[S::Velocity],
+    ) -> Result<Motion<S>, StepFailure>;
 }
 
 /// One problem of impulses and velocities: `velocity_level.rs`.
 #[derive(Debug)]
-struct ByVelocity;
+pub(super) struct ByVelocity;
 
-impl Law for ByVelocity {
-    fn motion(&self, world: &mut World, contacts: &VelocityLevel, free: &[Velocity]) -> Result<Motion, StepFailure> {
-        let offset = |approach: &Approach| match world.rebound(approach, free) {
+impl<S: Moving> Law<S> for ByVelocity {
+    fn motion(
+        &self,
+        world: &mut World<S>,
+        contacts: &VelocityLevel<S>,
+        free: &[S::Velocity],
+    ) -> Result<Motion<S>, StepFailure> {
+        let offset = |k: usize| match world.rebound(contacts, k, free) {
             Some(rebound) => rebound,
-            None => approach.gap.max(0.0) / world.options().dt,
+            None => contacts.approaches()[k].gap.max(0.0) / world.options().dt,
         };
-        let offsets: Vec<f64> = contacts.approaches().iter().map(offset).collect();
+        let offsets: Vec<f64> = (0..contacts.approaches().len()).map(offset).collect();
         world.solve(contacts, free, &offsets)
     }
 }

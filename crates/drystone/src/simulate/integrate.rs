@@ -1,14 +1,11 @@
 //! From velocities to places.
 
-use super::velocity_level::Velocity;
-use crate::{geometry::Pose, scene::Scene};
+use super::moving::Moving;
+use crate::scene::SceneOf;
 
 /// Moves every body that is not motionless by its velocity: `x+ = x + h v+`. Motionless ones keep their place to the bit.
-pub(super) fn advance(scene: &mut Scene, velocities: &[Velocity], motionless: &[bool], dt: f64) {
-    for (i, [vx, vy, turning]) in velocities.iter().copied().enumerate() {
-        if !motionless[i] {
-            let Pose { position: [x, y], angle } = scene.bodies()[i].pose;
-            scene.set_pose(i, Pose { position: [x + dt * vx, y + dt * vy], angle: angle + dt * turning });
-        }
+pub(super) fn advance<S: Moving>(scene: &mut SceneOf<S>, velocities: &[S::Velocity], motionless: &[bool], dt: f64) {
+    for (i, velocity) in velocities.iter().enumerate().filter(|(i, _)| !motionless[*i]) {
+        scene.set_pose(i, S::advanced(&scene.bodies()[i], velocity, dt));
     }
 }

@@ -1,6 +1,6 @@
 //! Islands: bodies that can push one another in a step. Between two of them A has no entry.
 
-use super::velocity_level::VelocityLevel;
+use super::velocity_level::{Velocity, VelocityLevel};
 use crate::contact::approach::Approach;
 
 /// The island of every body. Fixed bodies belong to none: nothing is passed on through them.
@@ -12,7 +12,7 @@ pub(super) struct Islands {
 
 impl Islands {
     /// Joins the bodies of every approach. `inverse_mass` is zero for fixed bodies.
-    pub fn new(contacts: &VelocityLevel, inverse_mass: &[[f64; 3]]) -> Self {
+    pub fn new(contacts: &VelocityLevel, inverse_mass: &[Velocity]) -> Self {
         let movable = inverse_mass.iter().map(|mass| *mass != [0.0; 3]).collect();
         let mut islands = Self { parent: (0..inverse_mass.len()).collect(), movable };
         for approach in contacts.approaches() {
@@ -55,7 +55,7 @@ impl Islands {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyOptions, Scene, contact::approach::ApproachFinder};
+    use crate::{BodyOptions, Scene, contact::approach::ApproachFinder, formulate::Cones};
 
     /// Two columns on one fixed ground, of two blocks and of three, are two islands.
     #[test]
@@ -68,7 +68,7 @@ mod tests {
         }
         let mut finder = ApproachFinder::default();
         finder.find(&scene, &[[0.0; 3]; 6]);
-        let contacts = VelocityLevel::new(finder.approaches().copied().collect());
+        let contacts = VelocityLevel::new(finder.approaches().copied().collect(), Cones::default(), [0.0, -9.81]);
         let mass: Vec<_> = scene.bodies().iter().map(|body| if body.fixed { [0.0; 3] } else { [1.0; 3] }).collect();
         let islands = Islands::new(&contacts, &mass);
         let sizes: Vec<usize> = islands.with(&contacts, |_| true).iter().map(Vec::len).collect();

@@ -1,4 +1,4 @@
-//! How does it move? Planar simulation with exact contact, and with computation reuse.
+//! How does it move? Simulation with exact contact, in the plane and in space, and with computation reuse.
 //!
 //! [`World`] holds bodies in motion and makes steps; `step.rs` reads as the paper's SIMULATE:
 //!
@@ -13,16 +13,19 @@
 //! - integrate: `integrate.rs`, and `project.rs` where blocks came to overlap.
 //!
 //! [`run`] makes many steps and records them. Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006), section
-//! IV; the theory is in docs/theory/velocity-level.md.
+//! IV; the theory is in docs/theory/velocity-level.md. What depends on the dimension is behind one trait, `moving.rs`.
 
 mod acceleration_level;
 mod coulomb;
 mod error;
 mod formulation;
 mod friction;
+mod in_plane;
+mod in_space;
 mod integrate;
 mod islands;
 mod motionless;
+mod moving;
 mod project;
 mod reuse;
 mod run;
@@ -37,8 +40,10 @@ pub use acceleration_level::Inconsistent;
 pub use error::{SimulationError, StepFailure};
 pub use formulation::Formulation;
 pub use friction::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
+pub use moving::Moving;
 pub use reuse::Reuse;
 pub use run::{Ending, Run, run};
+pub use snapshot::snapshot_dimension;
 pub use step::StepRecord;
 pub use velocity_level::Velocity;
 pub use world::{ContactImpulse, Options, World};

@@ -11,8 +11,11 @@
 //! over the normals N of all approaches of bodies that moved; motionless ones are held. What a body gains in height by it is
 //! taken from its kinetic energy, so that a step never adds energy.
 
-use super::velocity_level::Velocity;
-use crate::{contact::approach::Approach, geometry::Pose, scene::Scene};
+use super::{
+    moving::{Moving, components, is_zero, masses, split},
+    velocity_level::wrench,
+};
+use crate::{contact::approach::ApproachOf, scene::SceneOf};
 use drystone_lcp::{Counts, Problem, Settings, Solver, Status, cone::Columns};
 
 /// Overlaps are taken back when they are deeper than this share of the pair's contact tolerance.
@@ -27,29 +30,29 @@ const COMPLIANCE: f64 = 1e-3;
 /// Moves bodies apart so that no gap of the approaches is negative, to first order. `inverse_mass` is zero for what is
 /// held. Where bodies are jammed between others there may be no such motion; each contact then gives way a little, which
 /// leaves a share of the overlap. Returns the change of every place.
-pub(super) fn way_out(
-    approaches: &[&Approach],
-    inverse_mass: &[[f64; 3]],
+pub(super) fn way_out<S: Moving>(
+    approaches: &[&ApproachOf<S>],
+    inverse_mass: &[S::Velocity],
     counts: &mut Counts,
-) -> Option<Vec<[f64; 3]>> {
-    part(approaches, inverse_mass, 0.0, counts).or_else(|| part(approaches, inverse_mass, COMPLIANCE, counts))
+) -> Option<Vec<S::Velocity>> {
+    part::<S>(approaches, inverse_mass, 0.0, counts).or_else(|| part::<S>(approaches, inverse_mass, COMPLIANCE, counts))
 }
 
-fn part(
-    approaches: &[&Approach],
-    inverse_mass: &[[f64; 3]],
+fn part<S: Moving>(
+    approaches: &[&ApproachOf<S>],
+    inverse_mass: &[S::Velocity],
     compliance: f64,
     counts: &mut Counts,
-) -> Option<Vec<[f64; 3]>> {
-    let mut weights = inverse_mass.as_flattened().to_vec();
+) -> Option<Vec<S::Velocity>> {
+    let size = components::<S>();
+    let mut weights: Vec<f64> = inverse_mass.iter().flat_map(|mass| mass.as_ref()).copied().collect();
     let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
     for approach in approaches {
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let body = approach.id.bodies[side];
-            if inverse_mass[body] != [0.0; 3] {
-                let ([nx, ny], [rx, ry]) = (approach.normal, approach.arms[side]);
-                indices.extend([3 * body, 3 * body + 1, 3 * body + 2]);
-                data.extend([sign * nx, sign * ny, sign * (rx * ny - ry * nx)]);
+            if !is_zero(&inverse_mass[body]) {
+                indices.extend(size * body..size * (body + 1));
+                data.extend(wrench::<S>(&approach.levers[side], &approach.normal, sign).as_ref());
             }
         }
         if compliance > 0.0 {
@@ -72,31 +75,32 @@ fn part(
     if status != Ok(Status::Solved) {
         return None;
     }
-    let mut change = vec![[0.0; 3]; inverse_mass.len()];
+    let mut change = vec![S::Velocity::default(); inverse_mass.len()];
     for row in 0..approaches.len() {
-        for p in (indptr[row]..indptr[row + 1]).filter(|&p| indices[p] < 3 * inverse_mass.len()) {
-            let (body, axis) = (indices[p] / 3, indices[p] % 3);
-            change[body][axis] += inverse_mass[body][axis] * data[p] * solver.z(row);
+        for p in (indptr[row]..indptr[row + 1]).filter(|&p| indices[p] < size * inverse_mass.len()) {
+            let (body, axis) = (indices[p] / size, indices[p] % size);
+            change[body].as_mut()[axis] += inverse_mass[body].as_ref()[axis] * data[p] * solver.z(row);
         }
     }
     Some(change)
 }
 
 /// Changes the places, and takes the potential energy gained from the motion of the bodies that were moved.
-pub(super) fn shift(scene: &mut Scene, velocities: &mut [Velocity], change: &[[f64; 3]]) {
-    let [gx, gy] = scene.gravity();
+pub(super) fn shift<S: Moving>(scene: &mut SceneOf<S>, velocities: &mut [S::Velocity], change: &[S::Velocity]) {
+    let gravity = scene.gravity();
     let (mut gained, mut kinetic) = (0.0, 0.0);
-    let moved: Vec<usize> = (0..change.len()).filter(|&i| change[i] != [0.0; 3]).collect();
+    let moved: Vec<usize> = (0..change.len()).filter(|&i| !is_zero(&change[i])).collect();
     for &i in &moved {
         let body = &scene.bodies()[i];
-        let ([vx, vy, turning], [dx, dy, turn]) = (velocities[i], change[i]);
-        gained -= body.mass() * (gx * dx + gy * dy);
-        kinetic += 0.5 * body.mass() * (vx * vx + vy * vy) + 0.5 * body.inertia() * turning * turning;
-        let Pose { position: [x, y], angle } = body.pose;
-        scene.set_pose(i, Pose { position: [x + dx, y + dy], angle: angle + turn });
+        let (along, _) = split::<S>(&change[i]);
+        let raised = gravity.as_ref().iter().zip(along).map(|(g, x)| g * x).sum::<f64>();
+        gained -= body.mass() * raised;
+        let masses = masses(body);
+        kinetic += 0.5 * velocities[i].as_ref().iter().zip(masses.as_ref()).map(|(v, m)| m * v * v).sum::<f64>();
+        scene.set_pose(i, S::advanced(body, &change[i], 1.0));
     }
     if gained > 0.0 && kinetic > 0.0 {
         let left = (1.0 - gained / kinetic).max(0.0).sqrt();
-        moved.iter().for_each(|&i| velocities[i].iter_mut().for_each(|v| *v *= left));
+        moved.iter().for_each(|&i| velocities[i].as_mut().iter_mut().for_each(|v| *v *= left));
     }
 }

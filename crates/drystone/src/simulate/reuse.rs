@@ -1,6 +1,7 @@
 //! What one solve takes over from those before it: nothing, the motionless part, or all that has not moved.
 
-use super::velocity_level::VelocityLevel;
+use super::{moving::Moving, velocity_level::VelocityLevel};
+use crate::contact::approach::ApproachOf;
 use drystone_lcp::{Counts, LcpError, Problem, Settings, Solver, SolverState, Start, Status};
 use serde::{Deserialize, Serialize};
 
@@ -27,28 +28,28 @@ impl Reuse {
         }
     }
 
-    pub(super) fn route(self) -> Box<dyn Route> {
+    pub(super) fn route<S: Moving>(self) -> Box<dyn Route<S>> {
         match self {
             Self::None => Box::new(FromScratch::default()),
-            Self::Motionless => Box::new(FromMotionless::default()),
+            Self::Motionless => Box::new(FromMotionless::<S>::default()),
             Self::Full => Box::new(FromLast::default()),
         }
     }
 }
 
 /// What a route is given of a step, besides the problem.
-pub(super) struct Situation<'a> {
-    pub problem: &'a VelocityLevel,
+pub(super) struct Situation<'a, S: Moving> {
+    pub problem: &'a VelocityLevel<S>,
     /// The approaches of the step before, if this route has solved it.
-    pub before: Option<&'a VelocityLevel>,
+    pub before: Option<&'a VelocityLevel<S>>,
     /// Bodies that did not move in the step before, fixed ones included.
     pub motionless: &'a [bool],
 }
 
 /// A way to the solution of a step's problem. The answer is the same by all of them.
-pub(super) trait Route: std::fmt::Debug + Send + Sync {
+pub(super) trait Route<S: Moving>: std::fmt::Debug + Send + Sync {
     /// Whether the problem is that of the step before but for q, so that its matrix need not be made.
-    fn has_matrix(&self, _situation: &Situation<'_>) -> bool {
+    fn has_matrix(&self, _situation: &Situation<'_, S>) -> bool {
         false
     }
 
@@ -58,7 +59,7 @@ pub(super) trait Route: std::fmt::Debug + Send + Sync {
     }
 
     /// Takes the matrix of a step. Returns how many rows of the active block came with their factor.
-    fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError>;
+    fn begin(&mut self, situation: &Situation<'_, S>, matrix: Problem) -> Result<usize, LcpError>;
 
     /// Solves it for this q.
     fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError>;
@@ -91,17 +92,21 @@ pub(super) trait Route: std::fmt::Debug + Send + Sync {
     }
 
     /// What it keeps, to be written down after a step.
-    fn kept(&self) -> Kept;
+    fn kept(&self) -> Kept<ApproachOf<S>>;
 
     /// Takes up what was written down. `matrix` makes the problem of the step before from its q.
-    fn take_up(&mut self, kept: &Kept, matrix: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError>;
+    fn take_up(
+        &mut self,
+        kept: &Kept<ApproachOf<S>>,
+        matrix: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>,
+    ) -> Result<(), LcpError>;
 }
 
 /// What a route keeps between two steps.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Kept {
+pub(super) struct Kept<A> {
     /// Of the motionless route: rows of the motionless part, their q and z.
-    motionless: Option<Part>,
+    motionless: Option<Part<A>>,
     /// Of the full route: q and the solver's state.
     last: Option<(Vec<f64>, SolverState)>,
     relaxed: bool,
@@ -157,7 +162,7 @@ struct FromScratch {
     held: Held,
 }
 
-impl Route for FromScratch {
+impl<S: Moving> Route<S> for FromScratch {
     fn held(&self) -> &Held {
         &self.held
     }
@@ -166,7 +171,7 @@ impl Route for FromScratch {
         &mut self.held
     }
 
-    fn begin(&mut self, _: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
+    fn begin(&mut self, _: &Situation<'_, S>, matrix: Problem) -> Result<usize, LcpError> {
         self.held.take(matrix)?;
         Ok(0)
     }
@@ -179,12 +184,16 @@ impl Route for FromScratch {
         solver.solve()
     }
 
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> Kept<ApproachOf<S>> {
         Kept { motionless: None, last: None, relaxed: self.held.relaxed }
     }
 
-    fn take_up(&mut self, kept: &Kept, _: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError> {
-        self.forget();
+    fn take_up(
+        &mut self,
+        kept: &Kept<ApproachOf<S>>,
+        _: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>,
+    ) -> Result<(), LcpError> {
+        self.held.forget();
         self.held.relaxed = kept.relaxed;
         Ok(())
     }
@@ -192,23 +201,29 @@ impl Route for FromScratch {
 
 /// The motionless part of a step's problem with its solution.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Part {
+struct Part<A> {
     /// Approaches between motionless and fixed bodies, to tell whether it is still the same part.
-    approaches: Vec<crate::contact::approach::Approach>,
+    approaches: Vec<A>,
     q: Vec<f64>,
     z: Vec<f64>,
 }
 
-#[derive(Debug, Default)]
-struct FromMotionless {
+#[derive(Debug)]
+struct FromMotionless<S: Moving> {
     full: FromScratch,
-    part: Option<Part>,
+    part: Option<Part<ApproachOf<S>>>,
     rows: Vec<usize>,
 }
 
-impl FromMotionless {
+impl<S: Moving> Default for FromMotionless<S> {
+    fn default() -> Self {
+        Self { full: FromScratch::default(), part: None, rows: Vec::new() }
+    }
+}
+
+impl<S: Moving> FromMotionless<S> {
     /// Solves the motionless part alone unless that has been done.
-    fn solve_part(&mut self, situation: &Situation<'_>, problem: &Problem) -> Result<(), LcpError> {
+    fn solve_part(&mut self, situation: &Situation<'_, S>, problem: &Problem) -> Result<(), LcpError> {
         let still = |&k: &usize| {
             let bodies = situation.problem.approaches()[k].id.bodies;
             bodies.iter().all(|&body| situation.motionless[body])
@@ -217,7 +232,7 @@ impl FromMotionless {
         self.rows = part.iter().flat_map(|&k| situation.problem.rows(k)).collect();
         let approaches: Vec<_> = part.iter().map(|&k| situation.problem.approaches()[k]).collect();
         let q: Vec<f64> = self.rows.iter().map(|&row| problem.q()[row]).collect();
-        let known = |part: &Part| {
+        let known = |part: &Part<ApproachOf<S>>| {
             let same = part.approaches.iter().zip(&approaches).all(|(old, new)| old.same_geometry(new));
             same && part.approaches.len() == approaches.len() && part.q == q
         };
@@ -234,7 +249,7 @@ impl FromMotionless {
     }
 }
 
-impl Route for FromMotionless {
+impl<S: Moving> Route<S> for FromMotionless<S> {
     fn held(&self) -> &Held {
         &self.full.held
     }
@@ -243,13 +258,13 @@ impl Route for FromMotionless {
         &mut self.full.held
     }
 
-    fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
+    fn begin(&mut self, situation: &Situation<'_, S>, matrix: Problem) -> Result<usize, LcpError> {
         self.solve_part(situation, &matrix)?;
-        self.full.begin(situation, matrix)
+        Route::<S>::begin(&mut self.full, situation, matrix)
     }
 
     fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
-        let Some(part) = &self.part else { return self.full.solve(q) };
+        let Some(part) = &self.part else { return Route::<S>::solve(&mut self.full, q) };
         let solver = self.full.held.solver_mut();
         solver.clear();
         solver.set_q(q)?;
@@ -260,21 +275,25 @@ impl Route for FromMotionless {
                 solver.solve()
             }
             // The part's q has changed since: sliding speeds are corrected on the way.
-            Err(LcpError::Start(_)) => self.full.solve(q),
+            Err(LcpError::Start(_)) => Route::<S>::solve(&mut self.full, q),
             Err(error) => Err(error),
         }
     }
 
     fn forget(&mut self) {
-        self.full.forget();
+        self.full.held.forget();
         self.part = None;
     }
 
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> Kept<ApproachOf<S>> {
         Kept { motionless: self.part.clone(), last: None, relaxed: self.full.held.relaxed }
     }
 
-    fn take_up(&mut self, kept: &Kept, _: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError> {
+    fn take_up(
+        &mut self,
+        kept: &Kept<ApproachOf<S>>,
+        _: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>,
+    ) -> Result<(), LcpError> {
         self.forget();
         self.part.clone_from(&kept.motionless);
         self.full.held.relaxed = kept.relaxed;
@@ -287,7 +306,7 @@ struct FromLast {
     held: Held,
 }
 
-impl Route for FromLast {
+impl<S: Moving> Route<S> for FromLast {
     fn held(&self) -> &Held {
         &self.held
     }
@@ -296,8 +315,8 @@ impl Route for FromLast {
         &mut self.held
     }
 
-    fn has_matrix(&self, situation: &Situation<'_>) -> bool {
-        let same = |before: &VelocityLevel| {
+    fn has_matrix(&self, situation: &Situation<'_, S>) -> bool {
+        let same = |before: &VelocityLevel<S>| {
             let pairs = before.approaches().iter().zip(situation.problem.approaches());
             before.len() == situation.problem.len() && pairs.into_iter().all(|(old, new)| old.same_geometry(new))
         };
@@ -308,7 +327,7 @@ impl Route for FromLast {
         self.held.solver.as_ref().map(Solver::problem)
     }
 
-    fn begin(&mut self, situation: &Situation<'_>, matrix: Problem) -> Result<usize, LcpError> {
+    fn begin(&mut self, situation: &Situation<'_, S>, matrix: Problem) -> Result<usize, LcpError> {
         let rows = all_rows(matrix.len());
         let (Some(before), Some(solver)) = (situation.before, self.held.solver.as_mut()) else {
             self.held.take(matrix)?.add_rows(&rows)?;
@@ -327,13 +346,17 @@ impl Route for FromLast {
         solver.solve()
     }
 
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> Kept<ApproachOf<S>> {
         let last = self.held.solver.as_ref().map(|solver| (solver.problem().q().to_vec(), solver.state()));
         Kept { motionless: None, last, relaxed: self.held.relaxed }
     }
 
-    fn take_up(&mut self, kept: &Kept, matrix: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>) -> Result<(), LcpError> {
-        self.forget();
+    fn take_up(
+        &mut self,
+        kept: &Kept<ApproachOf<S>>,
+        matrix: &dyn Fn(Vec<f64>) -> Result<Problem, LcpError>,
+    ) -> Result<(), LcpError> {
+        self.held.forget();
         self.held.relaxed = kept.relaxed;
         if let Some((q, state)) = &kept.last {
             self.held.solver = Some(Solver::from_state(matrix(q.clone())?, settings(self.held.relaxed), state)?);

@@ -2,10 +2,11 @@
 
 use super::{
     error::StepFailure,
+    moving::Moving,
     step::StepRecord,
-    velocity_level::Velocity,
     world::{ContactImpulse, World},
 };
+use crate::geometry::Polygon;
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,21 +32,26 @@ impl Ending {
 
 /// What a run recorded. Places and velocities have one entry more than there are steps: the first is the beginning.
 #[derive(Debug, Clone)]
-pub struct Run {
+pub struct Run<S: Moving = Polygon> {
     /// How it ended.
     pub ending: Ending,
-    /// Centroid (m, m) and angle (rad) of every body.
-    pub poses: Vec<Vec<[f64; 3]>>,
-    /// Velocity of every body.
-    pub velocities: Vec<Vec<Velocity>>,
+    /// Place of every body; see [`World::poses`].
+    pub poses: Vec<Vec<S::Place>>,
+    /// Velocity of every body; see [`World::velocities`].
+    pub velocities: Vec<Vec<S::Velocity>>,
     /// What each step did.
     pub records: Vec<StepRecord>,
     /// The contacts that bore in each step, if they were asked for.
-    pub contacts: Vec<Vec<ContactImpulse>>,
+    pub contacts: Vec<Vec<ContactImpulse<S::Vector>>>,
 }
 
 /// Makes steps and records them, with the impulses at the contacts if `forces` says so. `go_on` is asked before every step, with the number of steps made.
-pub fn run(world: &mut World, steps: usize, forces: bool, mut go_on: impl FnMut(usize) -> bool) -> Run {
+pub fn run<S: Moving>(
+    world: &mut World<S>,
+    steps: usize,
+    forces: bool,
+    mut go_on: impl FnMut(usize) -> bool,
+) -> Run<S> {
     let mut run = Run {
         ending: Ending::Finished,
         poses: Vec::new(),
@@ -75,9 +81,9 @@ pub fn run(world: &mut World, steps: usize, forces: bool, mut go_on: impl FnMut(
     run
 }
 
-impl Run {
-    fn take_down(&mut self, world: &World) {
+impl<S: Moving> Run<S> {
+    fn take_down(&mut self, world: &World<S>) {
         self.poses.push(world.poses().collect());
-        self.velocities.push(world.velocities().to_vec());
+        self.velocities.push(world.velocities());
     }
 }

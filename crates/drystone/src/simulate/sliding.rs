@@ -26,9 +26,12 @@
 
 use super::{
     acceleration_level::{Inconsistent, SLIDES},
-    velocity_level::{Velocity, VelocityLevel, normal_and_tangential, wrench},
+    velocity_level::{Velocity, VelocityLevel, normal_and_tangential, push, wrench},
 };
-use crate::contact::{ContactId, approach::Approach};
+use crate::{
+    contact::{ContactId, approach::Approach},
+    geometry::Polygon,
+};
 use drystone_lcp::{Counts, LcpError, Lemke, Method, Problem, Settings, Solution, Start, Status};
 use serde::{Deserialize, Serialize};
 use std::mem;
@@ -235,9 +238,9 @@ impl Island<'_> {
             let approach = self.approach(member);
             let [nx, ny] = approach.normal;
             let [u_n, u_t] = normal_and_tangential(approach, self.free);
-            let wrenches = |[x, y]: [f64; 2]| {
+            let wrenches = |force: [f64; 2]| {
                 let on = |side: usize, sign: f64| {
-                    (approach.id.bodies[side], wrench(approach.arms[side], [sign * x, sign * y]))
+                    (approach.id.bodies[side], wrench::<Polygon>(&approach.levers[side], &force, sign))
                 };
                 [on(0, -1.0), on(1, 1.0)]
             };
@@ -317,12 +320,8 @@ impl Island<'_> {
         for (member, &[p_n, p_t]) in impulses.iter().enumerate() {
             let approach = self.approach(member);
             let [nx, ny] = approach.normal;
-            for (side, sign) in [(0, -1.0), (1, 1.0)] {
-                let body = approach.id.bodies[side];
-                let force = [sign * (p_n * nx - p_t * ny), sign * (p_n * ny + p_t * nx)];
-                let change = wrench(approach.arms[side], force);
-                (0..3).for_each(|axis| velocities[body][axis] += self.inverse_mass[body][axis] * change[axis]);
-            }
+            let impulse = [p_n * nx - p_t * ny, p_n * ny + p_t * nx];
+            push::<Polygon>(approach, &impulse, self.inverse_mass, &mut velocities);
         }
         velocities
     }

@@ -6,51 +6,81 @@
 use super::{
     error::SimulationError,
     formulation::Formulation,
+    moving::Moving,
     reuse::{Kept, Reuse},
     sliding::Carried,
-    velocity_level::{Velocity, VelocityLevel},
     world::{Options, World},
 };
-use crate::{contact::approach::Approach, io};
+use crate::{contact::approach::ApproachOf, formulate::Cones, io};
 use serde::{Deserialize, Serialize};
 
 const FORMAT: &str = "drystone-world";
-const VERSION: u64 = 1;
+/// 1 kept impulses along normals and tangents, and arms of contacts.
+const VERSION: u64 = 2;
 
 #[derive(Serialize, Deserialize)]
-struct Saved {
+#[serde(bound = "")]
+struct Saved<S: Moving> {
     format: String,
     version: u64,
     scene: String,
     dt: f64,
     reuse: Reuse,
     restitution: f64,
-    /// Absent in what was written before there was a choice.
-    #[serde(default)]
     formulation: Formulation,
-    velocities: Vec<Velocity>,
-    forces: Vec<[f64; 3]>,
+    cones: Cones,
+    velocities: Vec<S::Velocity>,
+    forces: Vec<S::Velocity>,
     motionless: Vec<bool>,
     steps: u64,
-    before: Option<Vec<Approach>>,
+    before: Option<Vec<ApproachOf<S>>>,
     sliding: Vec<f64>,
-    impulses: Vec<[f64; 2]>,
-    kept: Kept,
-    #[serde(default)]
+    impulses: Vec<S::Vector>,
+    kept: Kept<ApproachOf<S>>,
     carried: Carried,
 }
 
-impl World {
+/// What there is to know before the rest can be read.
+#[derive(Deserialize)]
+struct Head {
+    format: String,
+    version: u64,
+    scene: String,
+}
+
+/// The dimension of the world that a snapshot was taken of.
+///
+/// # Errors
+/// [`SimulationError::Snapshot`] for anything that is not one.
+pub fn snapshot_dimension(bytes: &[u8]) -> Result<usize, SimulationError> {
+    Ok(io::from_json(&head(bytes)?.scene, "the snapshot's scene")?.dimension())
+}
+
+fn fault(reason: impl ToString) -> SimulationError {
+    SimulationError::Snapshot { reason: reason.to_string() }
+}
+
+fn head(bytes: &[u8]) -> Result<Head, SimulationError> {
+    let head: Head = serde_json::from_slice(bytes).map_err(fault)?;
+    let (format, version) = (&head.format, head.version);
+    if format != FORMAT || version != VERSION {
+        return Err(fault(format!("it is {format} of version {version}, not {FORMAT} of version {VERSION}")));
+    }
+    Ok(head)
+}
+
+impl<S: Moving> World<S> {
     /// The whole state, to go on from with [`Self::restore`].
     pub fn snapshot(&self) -> Vec<u8> {
-        let saved = Saved {
+        let saved = Saved::<S> {
             format: FORMAT.to_owned(),
             version: VERSION,
-            scene: io::to_json(&self.scene),
+            scene: S::to_json(&self.scene),
             dt: self.options.dt,
             reuse: self.options.reuse,
             restitution: self.options.restitution,
             formulation: self.options.formulation,
+            cones: self.options.cones,
             velocities: self.velocities.clone(),
             forces: self.forces.clone(),
             motionless: self.motionless.clone(),
@@ -69,38 +99,32 @@ impl World {
     /// # Errors
     /// [`SimulationError::Snapshot`] for anything that is not one, whole and undamaged.
     pub fn restore(bytes: &[u8]) -> Result<Self, SimulationError> {
-        let fault = |reason: String| SimulationError::Snapshot { reason };
-        let saved: Saved = serde_json::from_slice(bytes).map_err(|error| fault(error.to_string()))?;
-        if saved.format != FORMAT || saved.version != VERSION {
-            let reason =
-                format!("it is {} of version {}, not {FORMAT} of version {VERSION}", saved.format, saved.version);
-            return Err(fault(reason));
-        }
-        let scene = io::from_json(&saved.scene, "the snapshot's scene")?.in_plane()?;
-        let Saved { dt, reuse, restitution, formulation, .. } = saved;
-        let mut world = Self::resting(scene, Options { dt, reuse, restitution, formulation })?;
+        let scene = S::of_any(io::from_json(&head(bytes)?.scene, "the snapshot's scene")?)?;
+        let saved: Saved<S> = serde_json::from_slice(bytes).map_err(fault)?;
+        let Saved { dt, reuse, restitution, formulation, cones, .. } = saved;
+        let mut world = Self::resting(scene, Options { dt, reuse, restitution, formulation, cones })?;
         let n = world.velocities.len();
         let (points, finite) =
-            (saved.before.as_ref().map_or(0, Vec::len), |v: &[f64; 3]| v.iter().all(|v| v.is_finite()));
+            (saved.before.as_ref().map_or(0, Vec::len), |v: &S::Velocity| v.as_ref().iter().all(|v| v.is_finite()));
         if [saved.velocities.len(), saved.forces.len(), saved.motionless.len()] != [n; 3]
             || saved.sliding.len() != points
             || saved.impulses.len() != points
             || saved.before.iter().flatten().any(|approach| approach.id.bodies.iter().any(|&body| body >= n))
             || !saved.velocities.iter().chain(&saved.forces).all(finite)
         {
-            return Err(fault("its parts do not fit together".to_owned()));
+            return Err(fault("its parts do not fit together"));
         }
         world.velocities = saved.velocities;
         world.forces = saved.forces;
         world.motionless = saved.motionless;
         world.steps = saved.steps;
-        world.before = saved.before.map(VelocityLevel::new);
+        world.before = saved.before.map(|approaches| world.problem_of(approaches));
         world.sliding = saved.sliding;
         world.impulses = saved.impulses;
         world.carried = saved.carried;
         if let Some(before) = &world.before {
             let matrix = |q: Vec<f64>| before.problem(&world.inverse_mass, q);
-            world.route.take_up(&saved.kept, &matrix).map_err(|error| fault(error.to_string()))?;
+            world.route.take_up(&saved.kept, &matrix).map_err(fault)?;
         }
         Ok(world)
     }

@@ -4,20 +4,22 @@ use super::{
     acceleration_level::Inconsistent,
     error::StepFailure,
     friction::{FRICTION_ACCEPTED, FixedPoint, MOST_SOLVES, acceptable},
+    moving::Moving,
     reuse::Situation,
-    velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
+    velocity_level::VelocityLevel,
     world::World,
 };
+use crate::{contact::approach::shift, geometry::Polygon};
 use drystone_lcp::{Counts, LcpError, Status};
 use std::time::{Duration, Instant};
 
 /// A solved step.
-pub(super) struct Motion {
-    pub velocities: Vec<Velocity>,
+pub struct Motion<S: Moving = Polygon> {
+    pub velocities: Vec<S::Velocity>,
     /// Sliding speed at every approach, m/s.
     pub sliding: Vec<f64>,
-    /// Impulse at every approach along the normal and the tangent, N s.
-    pub impulses: Vec<[f64; 2]>,
+    /// Impulse at every approach in world axes, N s.
+    pub impulses: Vec<S::Vector>,
     /// Largest error of Coulomb's law, m/s.
     pub friction_error: f64,
     pub residual: f64,
@@ -31,27 +33,27 @@ pub(super) struct Motion {
 }
 
 /// One solve for assumed sliding speeds.
-struct Trial {
-    velocities: Vec<Velocity>,
+struct Trial<S: Moving> {
+    velocities: Vec<S::Velocity>,
     sliding: Vec<f64>,
     error: f64,
 }
 
 /// What stays the same in all solves of a step.
-struct Given<'a> {
-    problem: &'a VelocityLevel,
-    free: &'a [Velocity],
+struct Given<'a, S: Moving> {
+    problem: &'a VelocityLevel<S>,
+    free: &'a [S::Velocity],
     offsets: &'a [f64],
 }
 
-impl World {
+impl<S: Moving> World<S> {
     /// Solves by the route of choice; if that fails, from scratch with the solver's own tolerances.
     pub(super) fn solve(
         &mut self,
-        problem: &VelocityLevel,
-        free: &[Velocity],
+        problem: &VelocityLevel<S>,
+        free: &[S::Velocity],
         offsets: &[f64],
-    ) -> Result<Motion, StepFailure> {
+    ) -> Result<Motion<S>, StepFailure> {
         let given = Given { problem, free, offsets };
         let answer = self.solve_coulomb(&given).or_else(|_| {
             self.route.restart();
@@ -65,11 +67,11 @@ impl World {
     }
 
     /// Takes over what can be, then looks for the fixed point of the sliding speeds.
-    fn solve_coulomb(&mut self, given: &Given<'_>) -> Result<Motion, Status> {
+    fn solve_coulomb(&mut self, given: &Given<'_, S>) -> Result<Motion<S>, Status> {
         let mut time = Duration::ZERO;
         let mut assumed = self.carried_sliding(given.problem);
         let rows_reused = self.take_over(given, &assumed, &mut time)?;
-        let speed = given.free.iter().fold(0.0, |fastest, [x, y, _]| x.hypot(*y).max(fastest));
+        let speed = given.free.iter().fold(0.0, |fastest, v| shift::<S>(v).max(fastest));
         let mut point = FixedPoint::new();
         let mut best = (f64::INFINITY, Vec::new());
         let mut solves = 0;
@@ -91,14 +93,14 @@ impl World {
     }
 
     /// Sliding speeds of the step before at the contacts that are still there; speeds within the tolerance are none.
-    fn carried_sliding(&self, problem: &VelocityLevel) -> Vec<f64> {
+    fn carried_sliding(&self, problem: &VelocityLevel<S>) -> Vec<f64> {
         let Some(before) = &self.before else { return vec![0.0; problem.approaches().len()] };
         let speeds = problem.matches(before).map(|(_, old)| old.map_or(0.0, |old| self.sliding[old]));
         speeds.map(|s| if s > FRICTION_ACCEPTED { s } else { 0.0 }).collect()
     }
 
     /// Hands the matrix to the route unless it has it. Returns the rows that come with their factor.
-    fn take_over(&mut self, given: &Given<'_>, assumed: &[f64], time: &mut Duration) -> Result<usize, Status> {
+    fn take_over(&mut self, given: &Given<'_, S>, assumed: &[f64], time: &mut Duration) -> Result<usize, Status> {
         let problem = given.problem;
         let situation = Situation { problem, before: self.before.as_ref(), motionless: &self.motionless };
         if self.route.has_matrix(&situation) {
@@ -116,7 +118,7 @@ impl World {
         rows_reused
     }
 
-    fn try_sliding(&mut self, given: &Given<'_>, assumed: &[f64], time: &mut Duration) -> Result<Trial, Status> {
+    fn try_sliding(&mut self, given: &Given<'_, S>, assumed: &[f64], time: &mut Duration) -> Result<Trial<S>, Status> {
         let q = given.problem.q(given.free, given.offsets, assumed);
         let begun = Instant::now();
         let status = self.route.solve(&q);
@@ -133,17 +135,14 @@ impl World {
 
     fn motion(
         &self,
-        problem: &VelocityLevel,
-        trial: Trial,
+        problem: &VelocityLevel<S>,
+        trial: Trial<S>,
         solves: usize,
         rows_reused: usize,
         time: Duration,
-    ) -> Motion {
+    ) -> Motion<S> {
         let solver = self.route.solver();
-        let impulse = |k: usize| {
-            let ([px, py], [nx, ny]) = (problem.impulse(k, |row| solver.z(row)), problem.approaches()[k].normal);
-            [px * nx + py * ny, py * nx - px * ny]
-        };
+        let impulse = |k: usize| problem.impulse(k, |row| solver.z(row));
         let Trial { velocities, sliding, error } = trial;
         Motion {
             velocities,
@@ -168,18 +167,23 @@ fn trouble(_: LcpError) -> Status {
 
 /// The sliding speeds found, and the largest error of Coulomb's law: where a contact bears, the speed at which it parts;
 /// where it does not, the speed at which it closes beyond its gap.
-fn judge(given: &Given<'_>, velocities: &[Velocity], assumed: &[f64], p: impl Fn(usize) -> f64) -> (Vec<f64>, f64) {
+fn judge<S: Moving>(
+    given: &Given<'_, S>,
+    velocities: &[S::Velocity],
+    assumed: &[f64],
+    p: impl Fn(usize) -> f64,
+) -> (Vec<f64>, f64) {
     let mut worst = 0.0_f64;
     let mut sliding = Vec::with_capacity(assumed.len());
-    for (k, approach) in given.problem.approaches().iter().enumerate() {
-        let [normal, tangential] = normal_and_tangential(approach, velocities);
+    for k in 0..given.problem.approaches().len() {
+        let [opening, speed] = given.problem.opening_and_sliding(k, velocities);
         let bears = given.problem.rows(k).any(|row| p(row) > 0.0);
-        worst = worst.max(match approach.friction {
+        worst = worst.max(match given.problem.friction(k) {
             0.0 => 0.0,
-            friction if bears => friction * (tangential.abs() - assumed[k]).abs(),
-            _ => -(normal + given.offsets[k]),
+            friction if bears => friction * (speed - assumed[k]).abs(),
+            _ => -(opening + given.offsets[k]),
         });
-        sliding.push(tangential.abs());
+        sliding.push(speed);
     }
     (sliding, worst)
 }

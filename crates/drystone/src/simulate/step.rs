@@ -5,15 +5,19 @@ use super::{
     error::StepFailure,
     integrate::advance,
     motionless::motionless_bodies,
+    moving::{Moving, is_zero, split_mut},
     project::{ALLOWED, ROUNDS, shift, way_out},
     reuse::Reuse,
     solve::Motion,
-    velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
+    velocity_level::VelocityLevel,
     world::World,
 };
-use crate::contact::{
-    approach::{Approach, MOST_TURN},
-    pair_tolerance,
+use crate::{
+    contact::{
+        approach::{ApproachOf, MOST_TURN, turn},
+        pair_tolerance,
+    },
+    geometry::norm,
 };
 use drystone_lcp::Counts;
 use std::time::{Duration, Instant};
@@ -53,7 +57,7 @@ pub struct StepRecord {
 /// Impacts slower than what gravity gives in this many steps do not rebound: they are contacts that rest.
 const RESTING_STEPS: f64 = 4.0;
 
-impl World {
+impl<S: Moving> World<S> {
     /// Makes one step.
     ///
     /// # Errors
@@ -73,8 +77,7 @@ impl World {
         let free = self.free_velocities();
 
         let problem = self.contacts(&free)?;
-        let law = self.options.formulation.law();
-        let motion = law.motion(self, &problem, &free)?;
+        let motion = self.law.motion(self, &problem, &free)?;
         let motionless = self.find_motionless(&motion)?;
         let projected = self.integrate(motion.velocities, motionless);
 
@@ -101,23 +104,31 @@ impl World {
     }
 
     /// `v* = v + h M^-1 F`: what the velocities would be without contacts.
-    fn free_velocities(&self) -> Vec<Velocity> {
+    fn free_velocities(&self) -> Vec<S::Velocity> {
         self.free_from(&self.velocities)
     }
 
     /// The same from other velocities.
-    pub(super) fn free_from(&self, velocities: &[Velocity]) -> Vec<Velocity> {
-        let [gx, gy] = self.scene.gravity();
+    pub(super) fn free_from(&self, velocities: &[S::Velocity]) -> Vec<S::Velocity> {
+        let (gravity, dt) = (self.scene.gravity(), self.options.dt);
         let free = |i: usize| {
-            let (v, inverse, f) = (velocities[i], self.inverse_mass[i], self.forces[i]);
-            let fall = if inverse == [0.0; 3] { [0.0; 3] } else { [gx, gy, 0.0] };
-            [0, 1, 2].map(|axis| v[axis] + self.options.dt * (fall[axis] + inverse[axis] * f[axis]))
+            let (inverse, force) = (&self.inverse_mass[i], &self.forces[i]);
+            if is_zero(inverse) {
+                return velocities[i];
+            }
+            let mut free = S::undisturbed(&self.scene.bodies()[i], &velocities[i], dt);
+            let pushed = inverse.as_ref().iter().zip(force.as_ref()).map(|(inverse, f)| inverse * f);
+            let mut fall = S::Velocity::default();
+            split_mut::<S>(&mut fall).0.copy_from_slice(gravity.as_ref());
+            let gains = fall.as_ref().iter().zip(pushed);
+            free.as_mut().iter_mut().zip(gains).for_each(|(v, (fall, pushed))| *v += dt * (fall + pushed));
+            free
         };
         (0..velocities.len()).map(free).collect()
     }
 
     /// Every approach that may close within the step.
-    fn contacts(&mut self, free: &[Velocity]) -> Result<VelocityLevel, StepFailure> {
+    fn contacts(&mut self, free: &[S::Velocity]) -> Result<VelocityLevel<S>, StepFailure> {
         if self.options.reuse != Reuse::Full {
             self.finder.clear();
         }
@@ -125,38 +136,48 @@ impl World {
         if let Some((body, pair)) = self.finder.whirling() {
             return Err(self.too_fast(body, pair, free));
         }
-        Ok(VelocityLevel::new(self.finder.approaches().copied().collect()))
+        Ok(self.problem_of(self.finder.approaches().copied().collect()))
     }
 
-    fn find_approaches(&mut self, free: &[Velocity]) {
-        let travel: Vec<[f64; 3]> = free.iter().map(|v| v.map(|v| self.options.dt * v)).collect();
+    /// The rows of some approaches.
+    pub(super) fn problem_of(&self, approaches: Vec<ApproachOf<S>>) -> VelocityLevel<S> {
+        VelocityLevel::new(approaches, self.options.cones, self.scene.gravity())
+    }
+
+    fn find_approaches(&mut self, free: &[S::Velocity]) {
+        let way = |velocity: &S::Velocity| {
+            let mut way = *velocity;
+            way.as_mut().iter_mut().for_each(|x| *x *= self.options.dt);
+            way
+        };
+        let travel: Vec<S::Velocity> = free.iter().map(way).collect();
         self.finder.find(&self.scene, &travel);
     }
 
-    fn too_fast(&self, body: usize, [a, b]: [usize; 2], free: &[Velocity]) -> StepFailure {
+    fn too_fast(&self, body: usize, [a, b]: [usize; 2], free: &[S::Velocity]) -> StepFailure {
         let name = |i: usize| self.scene.bodies()[i].name.clone();
         let other = if body == a { b } else { a };
-        StepFailure::TooFast { body: name(body), other: name(other), dt: MOST_TURN / free[body][2].abs() }
+        StepFailure::TooFast { body: name(body), other: name(other), dt: MOST_TURN / turn::<S>(&free[body]) }
     }
 
     /// The offset of an approach at which bodies collide and part again, m/s: `e u_n`. None where they do not.
-    pub(super) fn rebound(&self, approach: &Approach, free: &[Velocity]) -> Option<f64> {
+    pub(super) fn rebound(&self, contacts: &VelocityLevel<S>, approach: usize, free: &[S::Velocity]) -> Option<f64> {
         let (dt, restitution) = (self.options.dt, self.options.restitution);
-        let [arriving, _] = normal_and_tangential(approach, &self.velocities);
-        let [free, _] = normal_and_tangential(approach, free);
-        let collides = arriving < -self.resting_speed() && approach.gap.max(0.0) + dt * free <= 0.0;
+        let [arriving, _] = contacts.opening_and_sliding(approach, &self.velocities);
+        let [free, _] = contacts.opening_and_sliding(approach, free);
+        let gap = contacts.approaches()[approach].gap.max(0.0);
+        let collides = arriving < -self.resting_speed() && gap + dt * free <= 0.0;
         (restitution > 0.0 && collides).then_some(restitution * arriving)
     }
 
     /// Contacts that close more slowly rest, m/s.
     pub(super) fn resting_speed(&self) -> f64 {
-        let [gx, gy] = self.scene.gravity();
-        RESTING_STEPS * self.options.dt * gx.hypot(gy)
+        RESTING_STEPS * self.options.dt * norm(self.scene.gravity().as_ref())
     }
 
     /// The motionless set of the step.
-    fn find_motionless(&self, motion: &Motion) -> Result<Vec<bool>, StepFailure> {
-        let wild = motion.velocities.iter().position(|v| !v.iter().all(|v| v.is_finite()));
+    fn find_motionless(&self, motion: &Motion<S>) -> Result<Vec<bool>, StepFailure> {
+        let wild = motion.velocities.iter().position(|v| !v.as_ref().iter().all(|v| v.is_finite()));
         if let Some(i) = wild {
             return Err(StepFailure::NotFinite { body: self.scene.bodies()[i].name.clone() });
         }
@@ -164,16 +185,20 @@ impl World {
     }
 
     /// Moves what moves, and takes back what came to overlap.
-    fn integrate(&mut self, mut velocities: Vec<Velocity>, motionless: Vec<bool>) -> Projected {
-        velocities.iter_mut().zip(&motionless).filter(|(_, still)| **still).for_each(|(v, _)| *v = [0.0; 3]);
+    fn integrate(&mut self, mut velocities: Vec<S::Velocity>, motionless: Vec<bool>) -> Projected {
+        velocities
+            .iter_mut()
+            .zip(&motionless)
+            .filter(|(_, still)| **still)
+            .for_each(|(v, _)| *v = S::Velocity::default());
         advance(&mut self.scene, &velocities, &motionless, self.options.dt);
         (self.velocities, self.motionless) = (velocities, motionless);
-        self.forces.fill([0.0; 3]);
+        self.forces.fill(S::Velocity::default());
         self.project()
     }
 
     /// The sliding speeds to begin the next step with: none between bodies that stand still.
-    fn sliding_of(&self, problem: &VelocityLevel, mut sliding: Vec<f64>) -> Vec<f64> {
+    fn sliding_of(&self, problem: &VelocityLevel<S>, mut sliding: Vec<f64>) -> Vec<f64> {
         for (approach, s) in problem.approaches().iter().zip(&mut sliding) {
             if approach.id.bodies.iter().all(|&body| self.motionless[body]) {
                 *s = 0.0;
@@ -195,11 +220,13 @@ impl World {
             if projected.rounds == ROUNDS || !self.finder.overlaps().any(deep) {
                 return projected;
             }
-            let held = |(mass, still): (&[f64; 3], &bool)| if *still { [0.0; 3] } else { *mass };
+            let held = |(mass, still): (&S::Velocity, &bool)| if *still { S::Velocity::default() } else { *mass };
             let inverse_mass: Vec<_> = self.inverse_mass.iter().zip(&self.motionless).map(held).collect();
-            let free = |approach: &&Approach| approach.id.bodies.iter().any(|&body| inverse_mass[body] != [0.0; 3]);
-            let approaches: Vec<&Approach> = self.finder.approaches().filter(free).collect();
-            let Some(change) = way_out(&approaches, &inverse_mass, &mut projected.counts) else { return projected };
+            let free = |approach: &&ApproachOf<S>| approach.id.bodies.iter().any(|&i| !is_zero(&inverse_mass[i]));
+            let approaches: Vec<&ApproachOf<S>> = self.finder.approaches().filter(free).collect();
+            let Some(change) = way_out::<S>(&approaches, &inverse_mass, &mut projected.counts) else {
+                return projected;
+            };
             shift(&mut self.scene, &mut self.velocities, &change);
             projected.rounds += 1;
         }

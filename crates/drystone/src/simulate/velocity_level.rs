@@ -10,45 +10,55 @@
 //! ```
 //!
 //! `c` (an offset for each approach, m/s) lets a contact close just by the end of the step: `gap / h`. `s` is the sliding
-//! speed that the edges are corrected for, see `friction.rs`.
+//! speed that the edges are corrected for, see `friction.rs`. A cone has two edges in the plane; in space it is a pyramid
+//! (`formulate/cones.rs`) and mu the coefficient at its edges. `v*` holds what turning does to a body in space, too.
 //!
 //! D. Stewart and J. Trinkle, "An implicit time-stepping scheme for rigid body dynamics with inelastic collisions and
 //! Coulomb friction", 1996; M. Anitescu and F. Potra, "Formulating dynamic multi-rigid-body contact problems with friction
 //! as solvable linear complementarity problems", 1997; the convex form without `s`: M. Anitescu, 2006.
 
-use crate::{contact::approach::Approach, formulate::cone_edges};
+use super::moving::{Moving, axes, components, is_zero, split, split_mut};
+use crate::{
+    contact::approach::{Approach, ApproachOf},
+    formulate::Cones,
+    geometry::{Numbers, Polygon, plus_times, product},
+};
 use drystone_lcp::{LcpError, Origin, Problem, cone::Columns};
 use std::ops::Range;
 
-/// Velocity of a body: m/s, m/s, rad/s.
+/// Velocity of a body in the plane: m/s, m/s, rad/s.
 pub type Velocity = [f64; 3];
 
 /// The approaches of one step with their generators.
 #[derive(Debug, Clone)]
-pub(super) struct VelocityLevel {
-    approaches: Vec<Approach>,
+pub struct VelocityLevel<S: Moving = Polygon> {
+    approaches: Vec<ApproachOf<S>>,
     /// First row of every approach, and the number of rows.
     starts: Vec<usize>,
     /// Unit direction of every row.
-    directions: Vec<[f64; 2]>,
-    /// `sqrt(1 + mu^2)` of every approach.
-    edge_lengths: Vec<f64>,
+    directions: Vec<S::Vector>,
+    /// Coefficient at the cone's edges, and `sqrt(1 + mu^2)`, of every approach.
+    edges: Vec<[f64; 2]>,
 }
 
-impl VelocityLevel {
-    pub fn new(approaches: Vec<Approach>) -> Self {
+impl<S: Moving> VelocityLevel<S> {
+    pub fn new(approaches: Vec<ApproachOf<S>>, cones: Cones, gravity: S::Vector) -> Self {
         let mut starts = Vec::with_capacity(approaches.len() + 1);
         let mut directions = Vec::with_capacity(2 * approaches.len());
         starts.push(0);
         for approach in &approaches {
-            directions.extend(cone_edges(approach.normal, approach.friction));
+            directions.extend(S::edges(cones, approach.normal, approach.friction, gravity));
             starts.push(directions.len());
         }
-        let edge_lengths = approaches.iter().map(|approach| approach.friction.hypot(1.0)).collect();
-        Self { approaches, starts, directions, edge_lengths }
+        let edge = |approach: &ApproachOf<S>| {
+            let friction = S::edge_friction(cones, approach.friction);
+            [friction, friction.hypot(1.0)]
+        };
+        let edges = approaches.iter().map(edge).collect();
+        Self { approaches, starts, directions, edges }
     }
 
-    pub fn approaches(&self) -> &[Approach] {
+    pub fn approaches(&self) -> &[ApproachOf<S>] {
         &self.approaches
     }
 
@@ -62,16 +72,21 @@ impl VelocityLevel {
         self.starts[approach]..self.starts[approach + 1]
     }
 
-    /// `A = G' M^-1 G` and q. `inverse_mass`: the diagonal of M^-1, three entries a body, zero for a fixed one.
-    pub fn problem(&self, inverse_mass: &[[f64; 3]], q: Vec<f64>) -> Result<Problem, LcpError> {
-        Problem::from_generators_and_q(&self.generators(inverse_mass)?, inverse_mass.as_flattened(), q)
+    /// Coefficient at the edges of an approach's cone.
+    pub fn friction(&self, approach: usize) -> f64 {
+        self.edges[approach][0]
+    }
+
+    /// `A = G' M^-1 G` and q. `inverse_mass`: the diagonal of M^-1, zero for a fixed body.
+    pub fn problem(&self, inverse_mass: &[S::Velocity], q: Vec<f64>) -> Result<Problem, LcpError> {
+        Problem::from_generators_and_q(&self.generators(inverse_mass)?, &flat(inverse_mass), q)
     }
 
     /// The same from the problem before it, of which only the rows that moved are made anew where the others are as they were.
     pub fn problem_after(
         &self,
         (before, last): (&Self, &Problem),
-        inverse_mass: &[[f64; 3]],
+        inverse_mass: &[S::Velocity],
         q: Vec<f64>,
     ) -> Result<Problem, LcpError> {
         let origins = self.origins(before);
@@ -81,65 +96,71 @@ impl VelocityLevel {
             return self.problem(inverse_mass, q);
         }
         let moved: Vec<bool> = origins.iter().map(|origin| matches!(origin, Origin::Moved(_))).collect();
-        last.with_moved_generators(&self.generators(inverse_mass)?, &moved, inverse_mass.as_flattened(), q)
+        last.with_moved_generators(&self.generators(inverse_mass)?, &moved, &flat(inverse_mass), q)
     }
 
-    fn generators(&self, inverse_mass: &[[f64; 3]]) -> Result<Columns, LcpError> {
+    fn generators(&self, inverse_mass: &[S::Velocity]) -> Result<Columns, LcpError> {
+        let size = components::<S>();
         let mut indptr = Vec::with_capacity(self.len() + 1);
-        let (mut indices, mut data) = (Vec::with_capacity(6 * self.len()), Vec::with_capacity(6 * self.len()));
+        let (mut indices, mut data) =
+            (Vec::with_capacity(2 * size * self.len()), Vec::with_capacity(2 * size * self.len()));
         indptr.push(0);
         for (k, approach) in self.approaches.iter().enumerate() {
             for row in self.rows(k) {
                 for (side, sign) in [(0, -1.0), (1, 1.0)] {
                     let body = approach.id.bodies[side];
-                    if inverse_mass[body] != [0.0; 3] {
-                        indices.extend([3 * body, 3 * body + 1, 3 * body + 2]);
-                        data.extend(wrench(approach.arms[side], self.directions[row].map(|d| sign * d)));
+                    if !is_zero(&inverse_mass[body]) {
+                        indices.extend(size * body..size * (body + 1));
+                        data.extend(wrench::<S>(&approach.levers[side], &self.directions[row], sign).as_ref());
                     }
                 }
                 indptr.push(indices.len());
             }
         }
-        Columns::new(3 * inverse_mass.len(), &indptr, &indices, &data)
+        Columns::new(size * inverse_mass.len(), &indptr, &indices, &data)
     }
 
     /// `q` for velocities without impulses `free`, offsets `c` and sliding speeds `s`, one an approach.
-    pub fn q(&self, free: &[Velocity], c: &[f64], s: &[f64]) -> Vec<f64> {
+    pub fn q(&self, free: &[S::Velocity], c: &[f64], s: &[f64]) -> Vec<f64> {
         let mut q = Vec::with_capacity(self.len());
         for (k, approach) in self.approaches.iter().enumerate() {
-            let [ux, uy] = relative_velocity(approach, free);
-            let lift = (c[k] + approach.friction * s[k]) / self.edge_lengths[k];
-            q.extend(self.rows(k).map(|row| {
-                let [dx, dy] = self.directions[row];
-                dx * ux + dy * uy + lift
-            }));
+            let u = relative_velocity::<S>(approach, free);
+            let [friction, length] = self.edges[k];
+            let lift = (c[k] + friction * s[k]) / length;
+            q.extend(self.directions[self.rows(k)].iter().map(|direction| product(direction, &u) + lift));
         }
         q
     }
 
     /// `v+ = v* + M^-1 G p`.
-    pub fn velocities(&self, free: &[Velocity], inverse_mass: &[[f64; 3]], p: impl Fn(usize) -> f64) -> Vec<Velocity> {
+    pub fn velocities(
+        &self,
+        free: &[S::Velocity],
+        inverse_mass: &[S::Velocity],
+        p: impl Fn(usize) -> f64,
+    ) -> Vec<S::Velocity> {
         let mut velocities = free.to_vec();
         for (k, approach) in self.approaches.iter().enumerate() {
             let impulse = self.impulse(k, &p);
-            if impulse == [0.0; 2] {
-                continue;
-            }
-            for (side, sign) in [(0, -1.0), (1, 1.0)] {
-                let body = approach.id.bodies[side];
-                let change = wrench(approach.arms[side], impulse.map(|p| sign * p));
-                (0..3).for_each(|axis| velocities[body][axis] += inverse_mass[body][axis] * change[axis]);
+            if !is_zero(&impulse) {
+                push::<S>(approach, &impulse, inverse_mass, &mut velocities);
             }
         }
         velocities
     }
 
     /// Impulse on the second body of an approach in world axes, N s.
-    pub fn impulse(&self, approach: usize, p: impl Fn(usize) -> f64) -> [f64; 2] {
-        self.rows(approach).fold([0.0; 2], |[x, y], row| {
-            let [dx, dy] = self.directions[row];
-            [x + dx * p(row), y + dy * p(row)]
-        })
+    pub fn impulse(&self, approach: usize, p: impl Fn(usize) -> f64) -> S::Vector {
+        let add = |sum, row: usize| plus_times(sum, p(row), &self.directions[row]);
+        self.rows(approach).fold(S::Vector::default(), add)
+    }
+
+    /// Speeds of the second body of an approach relative to the first: along the normal, and of sliding, m/s.
+    pub fn opening_and_sliding(&self, approach: usize, velocities: &[S::Velocity]) -> [f64; 2] {
+        let Approach { normal, .. } = &self.approaches[approach];
+        let u = relative_velocity::<S>(&self.approaches[approach], velocities);
+        let edges = &self.directions[self.rows(approach)];
+        [product(normal, &u), S::sliding_speed(edges, normal, self.friction(approach), &u)]
     }
 
     /// Where each row comes from in the problem before it. Both lists of approaches are in the order of identities.
@@ -171,24 +192,54 @@ impl VelocityLevel {
     }
 }
 
-/// Force and moment about the centroid of a force that acts at the end of `arm`.
-pub(super) fn wrench([rx, ry]: [f64; 2], [fx, fy]: [f64; 2]) -> [f64; 3] {
-    [fx, fy, rx * fy - ry * fx]
+/// One number after the other.
+fn flat<V: Numbers>(values: &[V]) -> Vec<f64> {
+    values.iter().flat_map(|value| value.as_ref()).copied().collect()
 }
 
-/// Velocity of the second body relative to the first at the corner, m/s, in world axes.
-fn relative_velocity(approach: &Approach, velocities: &[Velocity]) -> [f64; 2] {
+/// Force, and moment about each turning, of `sign` times a force that acts where the levers are of.
+pub(super) fn wrench<S: Moving>(levers: &S::Levers, force: &S::Vector, sign: f64) -> S::Velocity {
+    let mut wrench = S::Velocity::default();
+    let (along, moment) = split_mut::<S>(&mut wrench);
+    along.iter_mut().zip(force.as_ref()).for_each(|(entry, f)| *entry = sign * f);
+    moment.iter_mut().zip(levers.as_ref()).for_each(|(entry, lever)| *entry = sign * product(lever, force));
+    wrench
+}
+
+/// Gives the second body of an approach an impulse, and the first its opposite.
+pub(super) fn push<S: Moving>(
+    approach: &ApproachOf<S>,
+    impulse: &S::Vector,
+    inverse_mass: &[S::Velocity],
+    velocities: &mut [S::Velocity],
+) {
+    for (side, sign) in [(0, -1.0), (1, 1.0)] {
+        let body = approach.id.bodies[side];
+        let change = wrench::<S>(&approach.levers[side], impulse, sign);
+        let per_mass = inverse_mass[body].as_ref().iter().zip(change.as_ref());
+        velocities[body].as_mut().iter_mut().zip(per_mass).for_each(|(v, (mass, p))| *v += mass * p);
+    }
+}
+
+/// Velocity of the second body relative to the first at the point, m/s, in world axes.
+pub(super) fn relative_velocity<S: Moving>(approach: &ApproachOf<S>, velocities: &[S::Velocity]) -> S::Vector {
     let of = |side: usize| {
-        let [vx, vy, turning] = velocities[approach.id.bodies[side]];
-        let [rx, ry] = approach.arms[side];
-        [vx - turning * ry, vy + turning * rx]
+        let (along, turning) = split::<S>(&velocities[approach.id.bodies[side]]);
+        let mut velocity = S::Vector::default();
+        velocity.as_mut().copy_from_slice(&along[..axes::<S>()]);
+        let levers = approach.levers[side].as_ref();
+        turning.iter().zip(levers).fold(velocity, |sum, (turning, lever)| plus_times(sum, *turning, lever))
     };
-    let ([ax, ay], [bx, by]) = (of(0), of(1));
-    [bx - ax, by - ay]
+    plus_times(of(1), -1.0, &of(0))
 }
 
-/// The same along the normal and along the tangent (the normal turned a quarter counter-clockwise).
+/// The same in the plane along the normal and along the tangent (the normal turned a quarter counter-clockwise).
 pub(super) fn normal_and_tangential(approach: &Approach, velocities: &[Velocity]) -> [f64; 2] {
-    let ([ux, uy], [nx, ny]) = (relative_velocity(approach, velocities), approach.normal);
-    [ux * nx + uy * ny, uy * nx - ux * ny]
+    in_frame(approach, relative_velocity::<Polygon>(approach, velocities))
+}
+
+/// A vector of the plane along the normal and along the tangent.
+pub(super) fn in_frame(approach: &Approach, [x, y]: [f64; 2]) -> [f64; 2] {
+    let [nx, ny] = approach.normal;
+    [x * nx + y * ny, y * nx - x * ny]
 }

@@ -2,16 +2,20 @@
 
 use super::{
     error::SimulationError,
-    formulation::Formulation,
+    formulation::{Formulation, Law},
+    moving::{Moving, inverse_mass, masses, split},
     reuse::{Reuse, Route},
     sliding::Carried,
-    velocity_level::{Velocity, VelocityLevel},
+    velocity_level::{VelocityLevel, wrench},
 };
 use crate::{
-    contact::{ContactId, approach::ApproachFinder, find_contacts},
+    contact::{ContactId, approach::ApproachFinder},
     error::SceneError,
-    scene::{BodyOptions, Scene},
+    formulate::Cones,
+    geometry::{Numbers, Polygon, minus_of, norm, plus_times, product},
+    scene::SceneOf,
 };
+use std::fmt;
 
 /// How a world makes its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,11 +28,19 @@ pub struct Options {
     pub restitution: f64,
     /// What the unknowns of a step are.
     pub formulation: Formulation,
+    /// What stands for friction cones in space.
+    pub cones: Cones,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { dt: 1.0 / 240.0, reuse: Reuse::Full, restitution: 0.0, formulation: Formulation::Velocity }
+        Self {
+            dt: 1.0 / 240.0,
+            reuse: Reuse::Full,
+            restitution: 0.0,
+            formulation: Formulation::Velocity,
+            cones: Cones::default(),
+        }
     }
 }
 
@@ -42,77 +54,90 @@ impl Default for Options {
 /// assert!(record.motionless.iter().all(|&still| still));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
-pub struct World {
-    pub(super) scene: Scene,
+pub struct World<S: Moving = Polygon> {
+    pub(super) scene: SceneOf<S>,
     pub(super) options: Options,
-    pub(super) velocities: Vec<Velocity>,
-    /// Wrenches for the next step: N, N, N m.
-    pub(super) forces: Vec<[f64; 3]>,
-    /// Diagonal of M^-1, three entries a body; zero for fixed ones.
-    pub(super) inverse_mass: Vec<[f64; 3]>,
+    pub(super) law: &'static dyn Law<S>,
+    /// Of every body, its turning about its own axes.
+    pub(super) velocities: Vec<S::Velocity>,
+    /// Wrenches for the next step: N, and N m about the own axes.
+    pub(super) forces: Vec<S::Velocity>,
+    /// Diagonal of M^-1; zero for fixed bodies.
+    pub(super) inverse_mass: Vec<S::Velocity>,
     /// Bodies that did not move in the last step; before the first one, the fixed ones.
     pub(super) motionless: Vec<bool>,
     pub(super) steps: u64,
-    pub(super) finder: ApproachFinder,
-    pub(super) route: Box<dyn Route>,
+    pub(super) finder: ApproachFinder<S>,
+    pub(super) route: Box<dyn Route<S>>,
     /// The problem of the last step, if it was solved.
-    pub(super) before: Option<VelocityLevel>,
+    pub(super) before: Option<VelocityLevel<S>>,
     /// Sliding speed at each of its approaches, m/s.
     pub(super) sliding: Vec<f64>,
-    /// Impulse at each of its approaches, along the normal and the tangent, N s.
-    pub(super) impulses: Vec<[f64; 2]>,
+    /// Impulse at each of its approaches, in world axes, N s.
+    pub(super) impulses: Vec<S::Vector>,
     /// On the acceleration level with full reuse: where solves of islands with sliding contacts start.
     pub(super) carried: Carried,
 }
 
-/// What one block gave another in the last step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactImpulse {
-    /// Which corner and which face.
-    pub id: ContactId,
-    /// The corner, world coordinates, metres, at the beginning of the step.
-    pub point: [f64; 2],
-    /// Unit vector from the first body into the second.
-    pub normal: [f64; 2],
-    /// Impulse on the second body along the normal, N s: never negative. Divided by dt it is the mean force.
-    pub along_normal: f64,
-    /// Along the normal turned a quarter counter-clockwise.
-    pub along_tangent: f64,
-}
-
-impl ContactImpulse {
-    /// Impulse on the second body in world axes, N s.
-    pub fn impulse(&self) -> [f64; 2] {
-        let ([nx, ny], n, t) = (self.normal, self.along_normal, self.along_tangent);
-        [n * nx - t * ny, n * ny + t * nx]
+impl<S: Moving> fmt::Debug for World<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let bodies = self.scene.bodies().len();
+        f.debug_struct("World").field("bodies", &bodies).field("steps", &self.steps).finish_non_exhaustive()
     }
 }
 
-impl World {
+/// What one block gave another in the last step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactImpulse<V = [f64; 2]> {
+    /// Which features meet.
+    pub id: ContactId,
+    /// Where, world coordinates, metres, at the beginning of the step.
+    pub point: V,
+    /// Unit vector from the first body into the second.
+    pub normal: V,
+    /// Impulse on the second body, world axes, N s. Divided by dt it is the mean force.
+    pub impulse: V,
+    /// Its part along the normal, N s: never negative.
+    pub along_normal: f64,
+}
+
+impl<V: Numbers> ContactImpulse<V> {
+    /// The rest of it, N s: in the plane along the normal turned a quarter counter-clockwise, in space its length.
+    pub fn tangential(&self) -> f64 {
+        match (self.normal.as_ref(), self.impulse.as_ref()) {
+            (&[nx, ny], &[x, y]) => y * nx - x * ny,
+            _ => norm(plus_times(self.impulse, -self.along_normal, &self.normal).as_ref()),
+        }
+    }
+}
+
+impl<S: Moving> World<S> {
     /// A world at rest.
     ///
     /// # Errors
-    /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`]; [`SceneError::Overlap`] if blocks overlap.
-    pub fn new(scene: Scene, options: Options) -> Result<Self, SimulationError> {
-        find_contacts(&scene)?;
+    /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`], [`SimulationError::NoSuchLaw`];
+    /// [`SceneError::Overlap`] if blocks overlap, [`SceneError::TooFewFacets`].
+    pub fn new(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
+        S::contacts(&scene)?;
         Self::resting(scene, options)
     }
 
     /// The same without a look at overlaps: a step may end with one, and a snapshot may be taken there.
-    pub(super) fn resting(scene: Scene, options: Options) -> Result<Self, SimulationError> {
-        let Options { dt, restitution, .. } = options;
+    pub(super) fn resting(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
+        let Options { dt, restitution, formulation, cones, .. } = options;
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SimulationError::TimeStep { value: dt });
         }
         if !(0.0..=1.0).contains(&restitution) {
             return Err(SimulationError::Restitution { value: restitution });
         }
+        cones.check()?;
         let n = scene.bodies().len();
         let mut world = Self {
+            law: S::law(formulation).ok_or(SimulationError::NoSuchLaw { formulation: formulation.name() })?,
             inverse_mass: Vec::new(),
-            velocities: vec![[0.0; 3]; n],
-            forces: vec![[0.0; 3]; n],
+            velocities: vec![S::Velocity::default(); n],
+            forces: vec![S::Velocity::default(); n],
             motionless: scene.bodies().iter().map(|body| body.fixed).collect(),
             steps: 0,
             finder: ApproachFinder::default(),
@@ -129,15 +154,11 @@ impl World {
     }
 
     fn weigh(&mut self) {
-        let inverse = |body: &crate::scene::Body| {
-            let (mass, inertia) = (body.mass().recip(), body.inertia().recip());
-            if body.fixed { [0.0; 3] } else { [mass, mass, inertia] }
-        };
-        self.inverse_mass = self.scene.bodies().iter().map(inverse).collect();
+        self.inverse_mass = self.scene.bodies().iter().map(inverse_mass).collect();
     }
 
     /// The bodies where they are now.
-    pub fn scene(&self) -> &Scene {
+    pub fn scene(&self) -> &SceneOf<S> {
         &self.scene
     }
 
@@ -146,14 +167,15 @@ impl World {
         self.options
     }
 
-    /// Velocity of every body: m/s, m/s, rad/s.
-    pub fn velocities(&self) -> &[Velocity] {
-        &self.velocities
+    /// Velocity of every body, in world axes: m/s along each, then rad/s about each (in the plane about its normal).
+    pub fn velocities(&self) -> Vec<S::Velocity> {
+        let bodies = self.scene.bodies().iter().zip(&self.velocities);
+        bodies.map(|(body, velocity)| S::to_world_axes(body, velocity)).collect()
     }
 
-    /// Place of every body: centroid, metres, and angle, radians.
-    pub fn poses(&self) -> impl Iterator<Item = [f64; 3]> {
-        self.scene.bodies().iter().map(|body| [body.pose.position[0], body.pose.position[1], body.pose.angle])
+    /// Place of every body: the centroid, metres, and the angle, radians; in space a unit quaternion (w, x, y, z).
+    pub fn poses(&self) -> impl Iterator<Item = S::Place> {
+        self.scene.bodies().iter().map(|body| S::place_of(&body.pose))
     }
 
     /// Whether each body kept its place in the last step; fixed ones always do.
@@ -168,89 +190,93 @@ impl World {
 
     /// Kinetic energy and the potential energy of gravity (zero at the origin), joules. Fixed bodies have none.
     pub fn energy(&self) -> f64 {
-        let [gx, gy] = self.scene.gravity();
-        let of = |(body, [vx, vy, turning]): (&crate::scene::Body, &Velocity)| {
-            let [x, y] = body.pose.position;
-            let moving = 0.5 * (vx * vx + vy * vy) - (gx * x + gy * y);
-            body.mass() * moving + 0.5 * body.inertia() * turning * turning
+        let gravity = self.scene.gravity();
+        let bodies = self.scene.bodies().iter().zip(&self.velocities).filter(|(body, _)| !body.fixed);
+        let of = |(body, velocity): (&crate::scene::Body<S>, &S::Velocity)| {
+            let masses = masses(body);
+            let kinetic = velocity.as_ref().iter().zip(masses.as_ref()).map(|(v, m)| 0.5 * m * v * v).sum::<f64>();
+            kinetic - body.mass() * product(&gravity, &S::place(&body.pose))
         };
-        let bodies = self.scene.bodies().iter().zip(&self.velocities);
-        bodies.filter(|(body, _)| !body.fixed).map(of).sum()
+        bodies.map(of).sum()
     }
 
     /// What the bodies gave one another in the last step, in the order of identities.
-    pub fn contact_impulses(&self) -> Vec<ContactImpulse> {
+    pub fn contact_impulses(&self) -> Vec<ContactImpulse<S::Vector>> {
         let approaches = self.before.iter().flat_map(VelocityLevel::approaches);
-        let impulse = |(approach, &[along_normal, along_tangent]): (&crate::contact::approach::Approach, &[f64; 2])| {
-            ContactImpulse {
-                id: approach.id,
-                point: approach.corner,
-                normal: approach.normal,
-                along_normal,
-                along_tangent,
-            }
-        };
-        approaches.zip(&self.impulses).map(impulse).collect()
+        let given = approaches.zip(&self.impulses).map(|(approach, impulse)| ContactImpulse {
+            id: approach.id,
+            point: approach.point,
+            normal: approach.normal,
+            impulse: *impulse,
+            along_normal: product(&approach.normal, impulse),
+        });
+        given.collect()
     }
 
-    /// Sets a block's velocity: m/s, m/s, rad/s.
+    /// Sets a block's velocity in world axes: m/s, then rad/s.
     ///
     /// # Errors
     /// [`SimulationError::Fixed`], [`SimulationError::NotFinite`], [`SceneError::UnknownName`].
-    pub fn set_velocity(&mut self, name: &str, velocity: Velocity) -> Result<(), SimulationError> {
-        let i = self.movable(name, "velocity", &velocity)?;
-        self.velocities[i] = velocity;
+    pub fn set_velocity(&mut self, name: &str, velocity: S::Velocity) -> Result<(), SimulationError> {
+        let i = self.movable(name, "velocity", velocity.as_ref())?;
+        self.velocities[i] = S::to_own_axes(&self.scene.bodies()[i], &velocity);
         Ok(())
     }
 
-    /// Pushes a block during the next step with a force (N) at a point (world coordinates, metres; the centroid
-    /// without one) and a moment (N m). Pushes add up, and end with the step.
+    /// Pushes a block during the next step with a force (N) at a point (world coordinates, metres; the centroid without
+    /// one) and a moment: `wrench` has both, in world axes, as velocities have. Pushes add up, and end with the step.
     ///
     /// # Errors
     /// As [`Self::set_velocity`].
     pub fn apply_force(
         &mut self,
         name: &str,
-        force: [f64; 2],
-        at: Option<[f64; 2]>,
-        moment: f64,
+        wrench: S::Velocity,
+        at: Option<S::Vector>,
     ) -> Result<(), SimulationError> {
-        let wrench = self.wrench(name, "force", force, at, moment)?;
-        let i = self.scene.index_of(name)?;
-        (0..3).for_each(|axis| self.forces[i][axis] += wrench[axis]);
+        let (i, wrench) = self.about_centroid(name, "force", wrench, at)?;
+        self.forces[i].as_mut().iter_mut().zip(wrench.as_ref()).for_each(|(sum, f)| *sum += f);
         Ok(())
     }
 
-    /// Changes a block's velocity at once by an impulse (N s) at a point and an impulsive moment (N m s).
+    /// Changes a block's velocity at once by an impulse (N s) at a point and an impulsive moment (N m s); see
+    /// [`Self::apply_force`].
     ///
     /// # Errors
     /// As [`Self::set_velocity`].
     pub fn apply_impulse(
         &mut self,
         name: &str,
-        impulse: [f64; 2],
-        at: Option<[f64; 2]>,
-        moment: f64,
+        wrench: S::Velocity,
+        at: Option<S::Vector>,
     ) -> Result<(), SimulationError> {
-        let wrench = self.wrench(name, "impulse", impulse, at, moment)?;
-        let i = self.scene.index_of(name)?;
-        (0..3).for_each(|axis| self.velocities[i][axis] += self.inverse_mass[i][axis] * wrench[axis]);
+        let (i, wrench) = self.about_centroid(name, "impulse", wrench, at)?;
+        let change = self.inverse_mass[i].as_ref().iter().zip(wrench.as_ref());
+        self.velocities[i].as_mut().iter_mut().zip(change).for_each(|(v, (inverse, p))| *v += inverse * p);
         Ok(())
     }
 
-    fn wrench(
+    /// A wrench at a point as one at the centroid, its moment about the body's own axes.
+    fn about_centroid(
         &self,
         name: &str,
         quantity: &'static str,
-        [fx, fy]: [f64; 2],
-        at: Option<[f64; 2]>,
-        moment: f64,
-    ) -> Result<[f64; 3], SimulationError> {
-        let [px, py] = at.unwrap_or_default();
-        let i = self.movable(name, quantity, &[fx, fy, px, py, moment])?;
-        let [x, y] = self.scene.bodies()[i].pose.position;
-        let arm = at.map_or([0.0; 2], |[px, py]| [px - x, py - y]);
-        Ok([fx, fy, arm[0] * fy - arm[1] * fx + moment])
+        wrench_there: S::Velocity,
+        at: Option<S::Vector>,
+    ) -> Result<(usize, S::Velocity), SimulationError> {
+        let i = self.movable(name, quantity, wrench_there.as_ref())?;
+        let body = &self.scene.bodies()[i];
+        let mut total = S::to_own_axes(body, &wrench_there);
+        if let Some(at) = at {
+            self.movable(name, quantity, at.as_ref())?;
+            let mut force = S::Vector::default();
+            force.as_mut().copy_from_slice(split::<S>(&wrench_there).0);
+            let levers = S::levers(&S::outline(body), minus_of(at, &S::place(&body.pose)));
+            let moment = wrench::<S>(&levers, &force, 1.0);
+            let axes = force.as_ref().len();
+            total.as_mut()[axes..].iter_mut().zip(&moment.as_ref()[axes..]).for_each(|(sum, m)| *sum += m);
+        }
+        Ok((i, total))
     }
 
     fn movable(&self, name: &str, quantity: &'static str, values: &[f64]) -> Result<usize, SimulationError> {
@@ -265,38 +291,39 @@ impl World {
         }
     }
 
-    /// Adds a rectangle at rest; see [`Scene::add_box`]. What was taken over from earlier steps stays.
+    /// Takes up the bodies that a scene has beyond the world's own, at rest. What was taken over from earlier steps stays.
+    ///
+    /// # Errors
+    /// [`SimulationError::OtherBodies`] unless the scene begins with the world's bodies as they are now; [`SceneError`], for
+    /// an overlap too. Nothing has changed then.
+    pub fn extend(&mut self, scene: SceneOf<S>) -> Result<(), SimulationError> {
+        let known = self.scene.bodies().len();
+        if scene.bodies().get(..known) != Some(self.scene.bodies()) {
+            return Err(SimulationError::OtherBodies);
+        }
+        S::contacts(&scene)?;
+        for body in &scene.bodies()[known..] {
+            self.velocities.push(S::Velocity::default());
+            self.forces.push(S::Velocity::default());
+            self.motionless.push(body.fixed);
+        }
+        self.scene = scene;
+        self.weigh();
+        Ok(())
+    }
+
+    /// Adds a block at rest, by what adds it to a scene, such as [`Scene::add_box`](crate::Scene::add_box). What was taken over
+    /// from earlier steps stays.
     ///
     /// # Errors
     /// [`SceneError`], for an overlap too; nothing has changed then.
-    pub fn add_box(
+    pub fn add(
         &mut self,
-        center: [f64; 2],
-        size: [f64; 2],
-        angle: f64,
-        options: BodyOptions,
+        place: impl FnOnce(&mut SceneOf<S>) -> Result<usize, SceneError>,
     ) -> Result<usize, SimulationError> {
-        self.add(|scene| scene.add_box(center, size, angle, options))
-    }
-
-    /// Adds a convex polygon at rest; see [`Scene::add_polygon`].
-    ///
-    /// # Errors
-    /// As [`Self::add_box`].
-    pub fn add_polygon(&mut self, vertices: &[[f64; 2]], options: BodyOptions) -> Result<usize, SimulationError> {
-        self.add(|scene| scene.add_polygon(vertices, options))
-    }
-
-    fn add(&mut self, place: impl FnOnce(&mut Scene) -> Result<usize, SceneError>) -> Result<usize, SimulationError> {
         let mut scene = self.scene.clone();
         let index = place(&mut scene)?;
-        find_contacts(&scene)?;
-        let fixed = scene.bodies()[index].fixed;
-        self.scene = scene;
-        self.velocities.push([0.0; 3]);
-        self.forces.push([0.0; 3]);
-        self.motionless.push(fixed);
-        self.weigh();
+        self.extend(scene)?;
         Ok(index)
     }
 
@@ -329,9 +356,15 @@ impl World {
     pub fn hash(&self) -> u64 {
         // Fowler, Noll and Vo's FNV-1a: the same on every machine, which the standard library does not promise.
         const PRIME: u64 = 0x0100_0000_01b3;
-        let numbers = self.poses().chain(self.velocities.iter().copied()).chain(self.forces.iter().copied());
-        let words = numbers.flatten().map(f64::to_bits).chain([self.steps]);
+        let places = self.poses().flat_map(|place| numbers(&place));
+        let motions = self.velocities.iter().chain(&self.forces).flat_map(numbers);
+        let words = places.chain(motions).chain([self.steps]);
         let bytes = words.flat_map(u64::to_le_bytes);
         bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
     }
+}
+
+/// The bits of some numbers.
+fn numbers<V: Numbers>(values: &V) -> Vec<u64> {
+    values.as_ref().iter().map(|x| x.to_bits()).collect()
 }

@@ -1,0 +1,213 @@
+//! Where polygons may meet within a time step: a corner of one before a face of the other.
+//!
+//! Blocks that are disjoint have a face with the other wholly on its outer side (separating axes, `narrow_phase.rs`); the two
+//! ends of the span it shares with the other block's most opposed face are the points where they can meet first. Each end is a
+//! corner of one of them before a face of the other, and its gap is the corner's distance from that face's line. A corner
+//! beyond the face's ends is left out unless the bodies' motion takes it before the face and through it within the step: the
+//! face does not reach beyond its ends, and a block that falls past an edge must not be held by it. Blocks that meet at a
+//! corner of each on their way, however far in the step, have the approach at the face where they meet.
+
+use super::{
+    ContactId, Feature,
+    approach::{Approach, Approaching, Meeting, Near},
+    narrow_phase::{Outline, greatest_separation, most_opposed},
+};
+use crate::{
+    geometry::{Polygon, Vector},
+    scene::Body,
+};
+
+impl Approaching for Polygon {
+    type Velocity = [f64; 3];
+    type Levers = [[f64; 2]; 1];
+    type Outline = Outline;
+
+    fn outline(body: &Body) -> Outline {
+        Outline::of(body)
+    }
+
+    fn levers(_: &Outline, [x, y]: [f64; 2]) -> [[f64; 2]; 1] {
+        [[-y, x]]
+    }
+
+    fn meet(near: &Near<'_, Self>) -> Meeting<Self> {
+        let [a, b] = near.places.map(Vector::from_array);
+        Corners { near, origin: a, offset: b - a }.meet()
+    }
+}
+
+/// Two polygons.
+struct Corners<'a> {
+    near: &'a Near<'a, Polygon>,
+    /// The first centroid in the world.
+    origin: Vector,
+    /// The second, seen from there.
+    offset: Vector,
+}
+
+/// A corner against a face of the other body, and what is between them.
+struct End {
+    corner: usize,
+    face: usize,
+    /// Corner relative to the first body's centroid.
+    at: Vector,
+    /// The face's outward normal.
+    normal: Vector,
+    gap: f64,
+    /// Place along the face, from 0 to its length where the corner is before it.
+    along: f64,
+    length: f64,
+}
+
+impl Corners<'_> {
+    fn meet(&self) -> Meeting<Polygon> {
+        let [a, b] = self.near.outlines;
+        let (face_a, separation_a) = greatest_separation(a, b, self.offset);
+        let (face_b, separation_b) = greatest_separation(b, a, -self.offset);
+        let separation = separation_a.max(separation_b);
+        let mut approaches = Vec::new();
+        if separation > self.near.reach {
+            return Meeting { approaches, separation };
+        }
+        // Of equal faces the first body's, so that rounding does not decide.
+        let second = separation_b > separation_a + self.near.tolerance;
+        let (reference, face) = if second { (1, face_b) } else { (0, face_a) };
+        let ends = self.ends(reference, face);
+        approaches.extend(ends.into_iter().filter_map(|(owner, end)| self.approach(owner, &end)));
+        if approaches.is_empty() && separation > 0.0 {
+            let met = self.first_met().map(|(owner, face)| (owner, self.end(owner, face, self.closest(owner, face))));
+            approaches.extend(met.map(|(owner, end)| self.between(owner, &end)));
+        }
+        Meeting { approaches, separation }
+    }
+
+    /// Both ends of the shared span, each with the body (0 or 1) that owns the face.
+    fn ends(&self, reference: usize, face: usize) -> [(usize, End); 2] {
+        let incident = 1 - reference;
+        let opposed = most_opposed(self.near.outlines[incident], self.near.outlines[reference].normals[face]);
+        // Faces run counter-clockwise, so the incident one runs against the reference.
+        let low = self.end(reference, face, self.near.outlines[incident].next(opposed));
+        let high = self.end(reference, face, opposed);
+        let beyond_low = low.along < -self.near.tolerance;
+        let beyond_high = high.along > high.length + self.near.tolerance;
+        let own = |corner: usize| (incident, self.end(incident, opposed, corner));
+        [
+            if beyond_low { own(face) } else { (reference, low) },
+            if beyond_high { own(self.near.outlines[reference].next(face)) } else { (reference, high) },
+        ]
+    }
+
+    /// The other body's corner against a face of `owner`.
+    fn end(&self, owner: usize, face: usize, corner: usize) -> End {
+        let origin = [Vector::ZERO, self.offset];
+        let (outline, other) = (self.near.outlines[owner], self.near.outlines[1 - owner]);
+        let at = origin[1 - owner] + other.vertices[corner];
+        let start = origin[owner] + outline.vertices[face];
+        let normal = outline.normals[face];
+        let side = outline.vertices[outline.next(face)] - outline.vertices[face];
+        let tangent = normal.perp();
+        let from_start = at - start;
+        End {
+            corner,
+            face,
+            at,
+            normal,
+            gap: normal.dot(from_start),
+            along: tangent.dot(from_start),
+            length: tangent.dot(side),
+        }
+    }
+
+    fn approach(&self, owner: usize, end: &End) -> Option<Approach> {
+        if end.gap > self.near.reach || !self.meets(owner, end) {
+            return None;
+        }
+        Some(self.between(owner, end))
+    }
+
+    fn between(&self, owner: usize, end: &End) -> Approach {
+        let (feature, normal) = match owner {
+            0 => (Feature::CornerOfB { a: end.face, b: end.corner }, end.normal),
+            _ => (Feature::CornerOfA { a: end.corner, b: end.face }, -end.normal),
+        };
+        Approach {
+            id: ContactId { bodies: self.near.bodies, feature },
+            normal: normal.to_array(),
+            point: (self.origin + end.at).to_array(),
+            levers: [end.at, end.at - self.offset].map(|arm| [arm.perp().to_array()]),
+            gap: end.gap,
+            friction: self.near.friction,
+        }
+    }
+
+    /// Whether the corner is before the face, or comes to be so and through it within the step.
+    fn meets(&self, owner: usize, end: &End) -> bool {
+        let before = |along: f64| along >= -self.near.tolerance && along <= end.length + self.near.tolerance;
+        if before(end.along) {
+            return true;
+        }
+        // The first body's motion is subtracted; seen from the face's owner the corner moves by this.
+        let shift = if owner == 0 { self.shift(end.at) } else { -self.shift(end.at) };
+        before(end.along + end.normal.perp().dot(shift)) && end.gap + end.normal.dot(shift) < -self.near.tolerance
+    }
+
+    /// How far the second body's point goes relative to the first's, to first order.
+    fn shift(&self, at: Vector) -> Vector {
+        let of = |k: usize, arm: Vector| {
+            let [x, y, turn] = self.near.travel[k];
+            Vector::new(x, y) + turn * arm.perp()
+        };
+        of(1, at - self.offset) - of(0, at)
+    }
+
+    /// How far the second centroid goes relative to the first.
+    fn drift(&self) -> Vector {
+        let [a, b] = self.near.travel;
+        Vector::new(b[0] - a[0], b[1] - a[1])
+    }
+
+    /// The face (of body 0 or 1) at which the second body, moved in a straight line, first meets the first: separating
+    /// axes over the time of the step. None if they do not meet.
+    fn first_met(&self) -> Option<(usize, usize)> {
+        let drift = self.drift();
+        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+        let mut met: Option<(f64, usize, usize)> = None;
+        for (owner, face) in [0, 1].into_iter().flat_map(|owner| self.faces(owner).map(move |face| (owner, face))) {
+            let normal = self.near.outlines[owner].normals[face];
+            let span = |k: usize| {
+                let origin = if k == 0 { Vector::ZERO } else { self.offset };
+                let along = self.near.outlines[k].vertices.iter().map(|v| normal.dot(*v + origin));
+                along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [x.min(low), x.max(high)])
+            };
+            let ([own_low, own_high], [low, high]) = (span(owner), span(1 - owner));
+            // How fast the other body moves outwards, seen from the face's owner.
+            let speed = if owner == 0 { normal.dot(drift) } else { -normal.dot(drift) };
+            let outside = low >= own_high;
+            if speed == 0.0 {
+                if outside || high <= own_low {
+                    return None;
+                }
+                continue;
+            }
+            let times = [(own_high - low) / speed, (own_low - high) / speed];
+            let first = times[0].min(times[1]);
+            leave = leave.min(times[0].max(times[1]));
+            if outside && met.is_none_or(|(latest, ..)| first > latest) {
+                met = Some((first, owner, face));
+            }
+            enter = enter.max(first);
+        }
+        met.filter(|_| enter < leave).map(|(_, owner, face)| (owner, face))
+    }
+
+    fn faces(&self, owner: usize) -> std::ops::Range<usize> {
+        0..self.near.outlines[owner].normals.len()
+    }
+
+    /// The other body's corner closest to the line of a face.
+    fn closest(&self, owner: usize, face: usize) -> usize {
+        let normal = self.near.outlines[owner].normals[face];
+        let height = |k: &usize| normal.dot(self.near.outlines[1 - owner].vertices[*k]);
+        self.faces(1 - owner).min_by(|a, b| height(a).total_cmp(&height(b))).unwrap_or(0)
+    }
+}

@@ -1,0 +1,98 @@
+//! What a step asks of the shape of a block, in the plane and in space.
+
+use super::formulation::{Formulation, Law};
+use crate::{
+    any_scene::AnyScene,
+    contact::approach::Approaching,
+    error::SceneError,
+    formulate::{Assemble, Cones},
+    geometry::Numbers,
+    scene::{Body, SceneOf},
+};
+
+/// Shapes whose motion can be simulated.
+pub trait Moving: Approaching + Assemble {
+    /// A pose as numbers: x, y (m) and the angle (rad); in space x, y, z (m) and a unit quaternion w, x, y, z.
+    type Place: Numbers;
+
+    /// See [`Self::Place`].
+    fn place_of(pose: &Self::Pose) -> Self::Place;
+
+    /// The pose of a body that moves with this velocity for so many seconds.
+    fn advanced(body: &Body<Self>, velocity: &Self::Velocity, seconds: f64) -> Self::Pose;
+
+    /// The velocity, after so many seconds, of a body on which nothing acts.
+    fn undisturbed(body: &Body<Self>, velocity: &Self::Velocity, seconds: f64) -> Self::Velocity;
+
+    /// A velocity whose turning is about the axes of the world, with the turning about the body's own ones.
+    fn to_own_axes(body: &Body<Self>, velocity: &Self::Velocity) -> Self::Velocity;
+
+    /// The reverse.
+    fn to_world_axes(body: &Body<Self>, velocity: &Self::Velocity) -> Self::Velocity;
+
+    /// Unit vectors along the edges of a friction cone: the normal alone without friction.
+    fn edges(cones: Cones, normal: Self::Vector, friction: f64, gravity: Self::Vector) -> Vec<Self::Vector>;
+
+    /// The coefficient at these edges.
+    fn edge_friction(cones: Cones, friction: f64) -> f64;
+
+    /// The speed that De Saxcé's correction needs, m/s: the greatest along an edge's tangent, reversed. `u` is the velocity of
+    /// the second body relative to the first.
+    fn sliding_speed(edges: &[Self::Vector], normal: &Self::Vector, edge_friction: f64, u: &Self::Vector) -> f64;
+
+    /// The law of motion of a formulation, if there is one for such shapes.
+    fn law(formulation: Formulation) -> Option<&'static dyn Law<Self>>;
+
+    /// The scene of such shapes.
+    ///
+    /// # Errors
+    /// [`SceneError`] for one in another dimension.
+    fn of_any(scene: AnyScene) -> Result<SceneOf<Self>, SceneError>;
+
+    /// The scene as JSON.
+    fn to_json(scene: &SceneOf<Self>) -> String;
+}
+
+/// Mass for each direction (kg) and moment of inertia for each turning (kg m^2) of a body.
+pub(super) fn masses<S: Moving>(body: &Body<S>) -> S::Velocity {
+    let mut masses = S::Velocity::default();
+    let (along, turning) = split_mut::<S>(&mut masses);
+    along.fill(body.mass());
+    turning.iter_mut().zip(body.shape.moments()).for_each(|(entry, moment)| *entry = body.density * moment);
+    masses
+}
+
+/// Diagonal of `M^-1`: zero for a fixed body.
+pub(super) fn inverse_mass<S: Moving>(body: &Body<S>) -> S::Velocity {
+    if body.fixed {
+        return S::Velocity::default();
+    }
+    let mut inverse = masses(body);
+    inverse.as_mut().iter_mut().for_each(|entry| *entry = entry.recip());
+    inverse
+}
+
+/// Numbers of a vector.
+pub(super) fn axes<S: Moving>() -> usize {
+    S::Vector::default().as_ref().len()
+}
+
+/// Numbers of a velocity.
+pub(super) fn components<S: Moving>() -> usize {
+    S::Velocity::default().as_ref().len()
+}
+
+/// The part along the axes, and the turning.
+pub(super) fn split<S: Moving>(velocity: &S::Velocity) -> (&[f64], &[f64]) {
+    velocity.as_ref().split_at(axes::<S>())
+}
+
+/// The same, to change it.
+pub(super) fn split_mut<S: Moving>(velocity: &mut S::Velocity) -> (&mut [f64], &mut [f64]) {
+    velocity.as_mut().split_at_mut(axes::<S>())
+}
+
+/// Whether it is that of a body at rest: of `M^-1`, that of a fixed one.
+pub(super) fn is_zero<V: Numbers>(velocity: &V) -> bool {
+    velocity.as_ref().iter().all(|x| *x == 0.0)
+}

@@ -1,0 +1,169 @@
+//! What steps leave behind: `StepRecord` of one, `Run` of many.
+
+use crate::arrays::vector;
+use drystone::{
+    Body,
+    geometry::Numbers,
+    simulate::{ContactImpulse, Ending, Inconsistent, Moving, Run as CoreRun, StepRecord as CoreRecord},
+};
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+
+/// What one step did.
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct StepRecord {
+    motionless: Py<PyArray1<bool>>,
+    pivots: usize,
+    major_cycles: usize,
+    minor_cycles: usize,
+    solves: usize,
+    rows: usize,
+    rows_reused: usize,
+    solve_seconds: f64,
+    seconds: f64,
+    residual: f64,
+    friction_error: f64,
+    penetration: f64,
+    projections: usize,
+    collisions: usize,
+    fallback: Option<&'static str>,
+    /// Names of the two bodies, and what meets.
+    inconsistent: Option<(String, String, String)>,
+}
+
+/// The records of a run as arrays, one entry a step; places and velocities have one more, the beginning.
+#[pyclass(frozen, get_all, module = "drystone._core")]
+pub struct Run {
+    status: String,
+    reason: Option<String>,
+    poses: Py<PyArray3<f64>>,
+    velocities: Py<PyArray3<f64>>,
+    motionless: Py<PyArray2<bool>>,
+    pivots: Py<PyArray1<i64>>,
+    major_cycles: Py<PyArray1<i64>>,
+    minor_cycles: Py<PyArray1<i64>>,
+    solves: Py<PyArray1<i64>>,
+    rows: Py<PyArray1<i64>>,
+    rows_reused: Py<PyArray1<i64>>,
+    projections: Py<PyArray1<i64>>,
+    collisions: Py<PyArray1<i64>>,
+    /// Indices of the two bodies where no forces were found; -1 elsewhere.
+    inconsistent: Py<PyArray2<i64>>,
+    solve_seconds: Py<PyArray1<f64>>,
+    step_seconds: Py<PyArray1<f64>>,
+    residual: Py<PyArray1<f64>>,
+    friction_error: Py<PyArray1<f64>>,
+    penetration: Py<PyArray1<f64>>,
+    /// Forces, if they were asked for: those of step k are the rows force_starts[k] to force_starts[k + 1].
+    force_starts: Py<PyArray1<i64>>,
+    force_bodies: Py<PyArray2<i64>>,
+    force_points: Py<PyArray2<f64>>,
+    forces: Py<PyArray2<f64>>,
+}
+
+impl StepRecord {
+    pub fn new<S: Moving>(py: Python<'_>, record: CoreRecord, bodies: &[Body<S>]) -> Self {
+        let place = |Inconsistent { contact, .. }: Inconsistent| {
+            let [a, b] = contact.bodies.map(|body| bodies[body].name.clone());
+            (a, b, contact.feature.to_string())
+        };
+        Self {
+            motionless: vector(py, record.motionless).unbind(),
+            pivots: record.counts.pivots,
+            major_cycles: record.counts.major_cycles,
+            minor_cycles: record.counts.minor_cycles,
+            solves: record.solves,
+            rows: record.rows,
+            rows_reused: record.rows_reused,
+            solve_seconds: record.solve_time.as_secs_f64(),
+            seconds: record.time.as_secs_f64(),
+            residual: record.residual,
+            friction_error: record.friction_error,
+            penetration: record.penetration,
+            projections: record.projections,
+            collisions: record.collisions,
+            fallback: record.inconsistent.map(|found| found.status),
+            inconsistent: record.inconsistent.map(place),
+        }
+    }
+}
+
+impl Run {
+    pub fn new<S: Moving>(py: Python<'_>, run: &CoreRun<S>, dt: f64, bodies: usize) -> PyResult<Self> {
+        let numbers = |of: &dyn Fn(&CoreRecord) -> f64| {
+            PyArray1::from_iter(py, run.records.iter().map(of).collect::<Vec<_>>()).unbind()
+        };
+        let counts = |of: &dyn Fn(&CoreRecord) -> usize| {
+            PyArray1::from_iter(py, run.records.iter().map(|record| of(record) as i64).collect::<Vec<_>>()).unbind()
+        };
+        let still: Vec<bool> = run.records.iter().flat_map(|record| record.motionless.iter().copied()).collect();
+        let places = run.records.iter().flat_map(|record| match record.inconsistent {
+            Some(Inconsistent { contact, .. }) => contact.bodies.map(|body| body as i64),
+            None => [-1; 2],
+        });
+        let forces = Forces::of(&run.contacts, dt);
+        let axes = S::Vector::default().as_ref().len();
+        let reason = match &run.ending {
+            Ending::Failed(failure) => Some(failure.to_string()),
+            _ => None,
+        };
+        Ok(Self {
+            status: run.ending.name().to_owned(),
+            reason,
+            poses: moments(py, &run.poses, bodies)?,
+            velocities: moments(py, &run.velocities, bodies)?,
+            motionless: PyArray1::from_vec(py, still).reshape([run.records.len(), bodies])?.unbind(),
+            pivots: counts(&|r| r.counts.pivots),
+            major_cycles: counts(&|r| r.counts.major_cycles),
+            minor_cycles: counts(&|r| r.counts.minor_cycles),
+            solves: counts(&|r| r.solves),
+            rows: counts(&|r| r.rows),
+            rows_reused: counts(&|r| r.rows_reused),
+            projections: counts(&|r| r.projections),
+            collisions: counts(&|r| r.collisions),
+            inconsistent: PyArray1::from_iter(py, places).reshape([run.records.len(), 2])?.unbind(),
+            solve_seconds: numbers(&|r| r.solve_time.as_secs_f64()),
+            step_seconds: numbers(&|r| r.time.as_secs_f64()),
+            residual: numbers(&|r| r.residual),
+            friction_error: numbers(&|r| r.friction_error),
+            penetration: numbers(&|r| r.penetration),
+            force_starts: PyArray1::from_vec(py, forces.starts).unbind(),
+            force_bodies: PyArray1::from_vec(py, forces.bodies).reshape([forces.count, 2])?.unbind(),
+            force_points: PyArray1::from_vec(py, forces.points).reshape([forces.count, axes])?.unbind(),
+            forces: PyArray1::from_vec(py, forces.forces).reshape([forces.count, axes])?.unbind(),
+        })
+    }
+}
+
+/// The forces of all steps, one after the other.
+#[derive(Default)]
+struct Forces {
+    starts: Vec<i64>,
+    bodies: Vec<i64>,
+    points: Vec<f64>,
+    forces: Vec<f64>,
+    count: usize,
+}
+
+impl Forces {
+    fn of<V: Numbers>(steps: &[Vec<ContactImpulse<V>>], dt: f64) -> Self {
+        let mut all = Self { starts: vec![0], ..Self::default() };
+        for step in steps {
+            for contact in step {
+                all.bodies.extend(contact.id.bodies.map(|body| body as i64));
+                all.points.extend(contact.point.as_ref());
+                all.forces.extend(contact.impulse.as_ref().iter().map(|p| p / dt));
+                all.count += 1;
+            }
+            all.starts.push(all.count as i64);
+        }
+        all
+    }
+}
+
+/// An array (moments, bodies, numbers of each).
+fn moments<V: Numbers>(py: Python<'_>, values: &[Vec<V>], bodies: usize) -> PyResult<Py<PyArray3<f64>>> {
+    let flat: Vec<f64> = values.iter().flatten().flat_map(|value| value.as_ref()).copied().collect();
+    let numbers = V::default().as_ref().len();
+    Ok(PyArray1::from_vec(py, flat).reshape([values.len(), bodies, numbers])?.unbind())
+}

@@ -1,0 +1,302 @@
+//! `World`: bodies in motion, one step or many.
+
+use crate::{
+    arrays::rows,
+    errors::{scene_error, simulation_error, step_error},
+    run::{Run, StepRecord},
+    scene::{Scene, cones},
+    verdict::ContactForce,
+};
+use drystone::{
+    AnyScene,
+    geometry::{Numbers, Polygon, Solid},
+    simulate::{self as core, Formulation, Moving, Options, Reuse, SimulationError, snapshot_dimension},
+};
+use numpy::{PyArray1, PyArray2};
+use pyo3::{
+    exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError},
+    prelude::*,
+    types::PyBytes,
+};
+use std::time::{Duration, Instant};
+
+#[pyclass(module = "drystone._core")]
+pub struct World {
+    core: AnyWorld,
+}
+
+/// In the plane or in space.
+#[allow(clippy::large_enum_variant)]
+enum AnyWorld {
+    Plane(core::World<Polygon>),
+    Space(core::World<Solid>),
+}
+
+/// Does the same with either.
+macro_rules! with_world {
+    ($any:expr, $world:ident => $answer:expr) => {
+        match $any {
+            AnyWorld::Plane($world) => $answer,
+            AnyWorld::Space($world) => $answer,
+        }
+    };
+}
+
+fn named_reuse(name: &str) -> PyResult<Reuse> {
+    match name {
+        "none" => Ok(Reuse::None),
+        "motionless" => Ok(Reuse::Motionless),
+        "full" => Ok(Reuse::Full),
+        other => {
+            Err(PyValueError::new_err(format!("unknown reuse \"{other}\": give \"full\", \"motionless\" or \"none\"")))
+        }
+    }
+}
+
+fn named_formulation(name: &str) -> PyResult<Formulation> {
+    match name {
+        "velocity" => Ok(Formulation::Velocity),
+        "acceleration" => Ok(Formulation::Acceleration),
+        other => Err(PyValueError::new_err(format!(
+            "unknown formulation \"{other}\": give \"velocity\" or \"acceleration\""
+        ))),
+    }
+}
+
+fn raised<T>(result: Result<T, SimulationError>) -> PyResult<T> {
+    result.map_err(|error| simulation_error(&error))
+}
+
+/// As many numbers as a velocity, or a vector, has.
+fn fixed<V: Numbers>(values: &[f64], what: &str) -> PyResult<V> {
+    let mut fixed = V::default();
+    let wanted = fixed.as_ref().len();
+    if values.len() != wanted {
+        return Err(PyTypeError::new_err(format!("{what} has {wanted} numbers here, not {}", values.len())));
+    }
+    fixed.as_mut().copy_from_slice(values);
+    Ok(fixed)
+}
+
+/// A wrench and where it acts.
+fn push<S: Moving>(wrench: &[f64], at: Option<&[f64]>) -> PyResult<(S::Velocity, Option<S::Vector>)> {
+    Ok((fixed(wrench, "a wrench")?, at.map(|at| fixed(at, "a point")).transpose()?))
+}
+
+#[pymethods]
+impl World {
+    #[new]
+    #[pyo3(signature = (scene, dt, reuse, restitution, formulation, friction_cones=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        dt: f64,
+        reuse: &str,
+        restitution: f64,
+        formulation: &str,
+        friction_cones: Option<(usize, String)>,
+    ) -> PyResult<Self> {
+        let (reuse, formulation) = (named_reuse(reuse)?, named_formulation(formulation)?);
+        let options = Options { dt, reuse, restitution, formulation, cones: cones(friction_cones)? };
+        let made = py.detach(|| {
+            Ok(match scene.core.clone() {
+                AnyScene::Plane(scene) => AnyWorld::Plane(core::World::new(scene, options)?),
+                AnyScene::Space(scene) => AnyWorld::Space(core::World::new(scene, options)?),
+            })
+        });
+        Ok(Self { core: raised(made)? })
+    }
+
+    fn step(&mut self, py: Python<'_>) -> PyResult<StepRecord> {
+        with_world!(&mut self.core, world => {
+            let record = py.detach(|| world.step()).map_err(|failure| step_error(&failure))?;
+            Ok(StepRecord::new(py, record, world.scene().bodies()))
+        })
+    }
+
+    /// Makes steps; `progress` is called with (steps made, steps in all) a few times a second.
+    #[pyo3(signature = (steps, forces=false, progress=None))]
+    fn run(&mut self, py: Python<'_>, steps: usize, forces: bool, progress: Option<Py<PyAny>>) -> PyResult<Run> {
+        let mut watch = Watch { progress, last: Instant::now(), error: None };
+        with_world!(&mut self.core, world => {
+            let run = py.detach(|| core::run(world, steps, forces, |made| watch.go_on(made, steps)));
+            match watch.error {
+                Some(error) => Err(error),
+                None => Run::new(py, &run, world.options().dt, world.scene().bodies().len()),
+            }
+        })
+    }
+
+    #[getter]
+    fn scene(&self) -> Scene {
+        Scene { core: with_world!(&self.core, world => world.scene().clone().into()) }
+    }
+
+    #[getter]
+    fn dimension(&self) -> usize {
+        match self.core {
+            AnyWorld::Plane(_) => 2,
+            AnyWorld::Space(_) => 3,
+        }
+    }
+
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        with_world!(&self.core, world => world.scene().bodies().iter().map(|body| body.name.clone()).collect())
+    }
+
+    #[getter]
+    fn dt(&self) -> f64 {
+        self.options().dt
+    }
+
+    #[getter]
+    fn reuse(&self) -> &'static str {
+        self.options().reuse.name()
+    }
+
+    #[getter]
+    fn restitution(&self) -> f64 {
+        self.options().restitution
+    }
+
+    #[getter]
+    fn formulation(&self) -> &'static str {
+        self.options().formulation.name()
+    }
+
+    #[getter]
+    fn steps(&self) -> u64 {
+        with_world!(&self.core, world => world.steps())
+    }
+
+    #[getter]
+    fn energy(&self) -> f64 {
+        with_world!(&self.core, world => world.energy())
+    }
+
+    #[getter]
+    fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        with_world!(&self.core, world => rows(py, &world.poses().collect::<Vec<_>>()))
+    }
+
+    #[getter]
+    fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        with_world!(&self.core, world => rows(py, &world.velocities()))
+    }
+
+    #[getter]
+    fn motionless<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        with_world!(&self.core, world => crate::arrays::vector(py, world.motionless().to_vec()))
+    }
+
+    /// Mean forces of the last step at the contacts that bear.
+    fn forces(&self) -> Vec<ContactForce> {
+        let dt = self.options().dt;
+        with_world!(&self.core, world => {
+            let bearing = world.contact_impulses().into_iter().filter(|contact| contact.along_normal > 0.0);
+            bearing.map(|contact| ContactForce::of_impulse(world.scene().bodies(), &contact, dt)).collect()
+        })
+    }
+
+    fn set_velocity(&mut self, name: &str, velocity: Vec<f64>) -> PyResult<()> {
+        with_world!(&mut self.core, world => raised(world.set_velocity(name, fixed(&velocity, "a velocity")?)))
+    }
+
+    /// `wrench`: force and moment.
+    #[pyo3(signature = (name, wrench, at=None))]
+    fn apply_force(&mut self, name: &str, wrench: Vec<f64>, at: Option<Vec<f64>>) -> PyResult<()> {
+        match &mut self.core {
+            AnyWorld::Plane(world) => {
+                let (wrench, at) = push::<Polygon>(&wrench, at.as_deref())?;
+                raised(world.apply_force(name, wrench, at))
+            }
+            AnyWorld::Space(world) => {
+                let (wrench, at) = push::<Solid>(&wrench, at.as_deref())?;
+                raised(world.apply_force(name, wrench, at))
+            }
+        }
+    }
+
+    /// `wrench`: impulse and impulsive moment.
+    #[pyo3(signature = (name, wrench, at=None))]
+    fn apply_impulse(&mut self, name: &str, wrench: Vec<f64>, at: Option<Vec<f64>>) -> PyResult<()> {
+        match &mut self.core {
+            AnyWorld::Plane(world) => {
+                let (wrench, at) = push::<Polygon>(&wrench, at.as_deref())?;
+                raised(world.apply_impulse(name, wrench, at))
+            }
+            AnyWorld::Space(world) => {
+                let (wrench, at) = push::<Solid>(&wrench, at.as_deref())?;
+                raised(world.apply_impulse(name, wrench, at))
+            }
+        }
+    }
+
+    /// Takes up the bodies that this scene has beyond the world's.
+    fn extend(&mut self, scene: &Scene) -> PyResult<()> {
+        let scene = scene.core.clone();
+        match &mut self.core {
+            AnyWorld::Plane(world) => raised(world.extend(scene.in_plane().map_err(|error| scene_error(&error))?)),
+            AnyWorld::Space(world) => raised(world.extend(scene.in_space().map_err(|error| scene_error(&error))?)),
+        }
+    }
+
+    fn remove(&mut self, name: &str) -> PyResult<()> {
+        with_world!(&mut self.core, world => raised(world.remove(name)))
+    }
+
+    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        with_world!(&self.core, world => PyBytes::new(py, &world.snapshot()))
+    }
+
+    #[staticmethod]
+    fn restore(snapshot: &[u8]) -> PyResult<Self> {
+        let core = match raised(snapshot_dimension(snapshot))? {
+            2 => AnyWorld::Plane(raised(core::World::restore(snapshot))?),
+            _ => AnyWorld::Space(raised(core::World::restore(snapshot))?),
+        };
+        Ok(Self { core })
+    }
+
+    fn state_hash(&self) -> u64 {
+        with_world!(&self.core, world => world.hash())
+    }
+}
+
+impl World {
+    fn options(&self) -> Options {
+        with_world!(&self.core, world => world.options())
+    }
+}
+
+/// Looks for Ctrl-C and reports progress, a few times a second.
+struct Watch {
+    progress: Option<Py<PyAny>>,
+    last: Instant,
+    error: Option<PyErr>,
+}
+
+const PERIOD: Duration = Duration::from_millis(100);
+
+impl Watch {
+    fn go_on(&mut self, made: usize, steps: usize) -> bool {
+        if self.last.elapsed() < PERIOD {
+            return true;
+        }
+        self.last = Instant::now();
+        Python::attach(|py| {
+            if py.check_signals().is_err() {
+                return false; // Ctrl-C: what is done is the answer
+            }
+            let Some(function) = &self.progress else { return true };
+            let error = match function.call1(py, (made, steps)) {
+                Ok(_) => return true,
+                Err(error) => error,
+            };
+            // Ctrl-C within the callback: what is done is the answer, as above.
+            self.error = Some(error).filter(|error| !error.is_instance_of::<PyKeyboardInterrupt>(py));
+            false
+        })
+    }
+}
