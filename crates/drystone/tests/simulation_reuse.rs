@@ -95,9 +95,9 @@ fn the_scenes_move_in_the_segments_that_the_paper_describes() {
     assert_eq!(fig4, [vec!["a", "b"], vec!["a", "b", "c", "d", "e"], vec!["a", "b", "c", "d", "e", "f", "g"]]);
 }
 
-/// A step in which nothing moves: no pivot, no row in or out of the factor, every active row kept, one solve.
+/// A step in which nothing moves is that before it over again: nothing is solved, and every active row stays.
 #[test]
-fn a_settled_step_costs_a_residual_check() {
+fn a_settled_step_solves_nothing() {
     for scene in [scenes::col50(0.5), scenes::pyr13(0.5), scenes::wall84(3, 0.5), scenes::arch(20, 0.2, 0.7)] {
         let mut world = world(&scene.unwrap(), Reuse::Full);
         for _ in 0..3 {
@@ -105,9 +105,7 @@ fn a_settled_step_costs_a_residual_check() {
         }
         for _ in 0..20 {
             let record = world.step().unwrap();
-            let Counts { pivots, refactorisations, factor_rows, major_cycles, .. } = record.counts;
-            assert_eq!((pivots, refactorisations, factor_rows, major_cycles), (0, 0, 0, 0));
-            assert_eq!(record.solves, 1);
+            assert_eq!((record.counts, record.solves), (Counts::default(), 0));
             assert!(record.rows_reused > 0 && record.residual <= 1e-9);
             assert!(world.motionless().iter().all(|&still| still));
         }

@@ -7,9 +7,10 @@
 
 use crate::{problem::Problem, scaling::Scaling};
 use faer::{Mat, linalg::solvers::Solve};
+use serde::{Deserialize, Serialize};
 
 /// A named start: `z` solves the principal sub-problem on `indices`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Start {
     /// Rows of the complete problem that the sub-problem has, in its order (k).
     pub indices: Vec<usize>,

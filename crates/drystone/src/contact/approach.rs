@@ -105,6 +105,8 @@ pub struct ApproachFinder<S: Approaching> {
     pairs: Vec<Pair<S>>,
     /// Pairs looked at since the finder was made: a measure of the work done.
     pub pairs_looked_at: usize,
+    /// Goes up whenever the approaches may have changed.
+    pub revision: u64,
 }
 
 #[derive(Debug, Clone)]
@@ -119,7 +121,7 @@ struct Pair<S: Approaching> {
 
 impl<S: Approaching> Default for ApproachFinder<S> {
     fn default() -> Self {
-        Self { outlines: Vec::new(), seen: Vec::new(), pairs: Vec::new(), pairs_looked_at: 0 }
+        Self { outlines: Vec::new(), seen: Vec::new(), pairs: Vec::new(), pairs_looked_at: 0, revision: 0 }
     }
 }
 
@@ -132,6 +134,7 @@ impl<S: Approaching> ApproachFinder<S> {
         if keys == self.seen {
             return;
         }
+        self.revision += 1;
         let changed: Vec<bool> = (0..keys.len()).map(|i| self.seen.get(i) != Some(&keys[i])).collect();
         self.outlines.truncate(bodies.len());
         for (i, body) in bodies.iter().enumerate() {
@@ -158,7 +161,7 @@ impl<S: Approaching> ApproachFinder<S> {
 
     /// Forgets everything, so that the next call looks at every pair.
     pub fn clear(&mut self) {
-        *self = Self { pairs_looked_at: self.pairs_looked_at, ..Self::default() };
+        *self = Self { pairs_looked_at: self.pairs_looked_at, revision: self.revision + 1, ..Self::default() };
     }
 
     /// The approaches found, in order.

@@ -32,6 +32,7 @@ mod run;
 mod sliding;
 mod snapshot;
 mod solve;
+mod standing;
 mod step;
 mod velocity_level;
 mod world;

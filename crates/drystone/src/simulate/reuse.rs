@@ -61,6 +61,14 @@ pub(super) trait Route<S: Moving>: std::fmt::Debug + Send + Sync {
     /// Takes the matrix of a step. Returns how many rows of the active block came with their factor.
     fn begin(&mut self, situation: &Situation<'_, S>, matrix: Problem) -> Result<usize, LcpError>;
 
+    /// Takes the matrix of the step before, which was solved without a solver.
+    fn begin_from(&mut self, matrix: Problem, solved: &Start) -> Result<(), LcpError> {
+        let rows = all_rows(matrix.len());
+        let solver = self.held_mut().take(matrix)?;
+        solver.start_from(solved)?;
+        solver.add_rows(&rows)
+    }
+
     /// Solves it for this q.
     fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError>;
 
@@ -73,6 +81,11 @@ pub(super) trait Route<S: Moving>: std::fmt::Debug + Send + Sync {
     /// The solver with the solution, after a solve.
     fn solver(&self) -> &Solver {
         self.held().solver.as_ref().expect(SOLVED)
+    }
+
+    /// Rows that bear; none without a solver.
+    fn active_rows(&self) -> usize {
+        self.held().solver.as_ref().map_or(0, Solver::active_rows)
     }
 
     /// All work so far.
@@ -330,7 +343,8 @@ impl<S: Moving> Route<S> for FromLast {
     fn begin(&mut self, situation: &Situation<'_, S>, matrix: Problem) -> Result<usize, LcpError> {
         let rows = all_rows(matrix.len());
         let (Some(before), Some(solver)) = (situation.before, self.held.solver.as_mut()) else {
-            self.held.take(matrix)?.add_rows(&rows)?;
+            let solver = self.held.take(matrix)?;
+            solver.add_rows(&rows)?;
             return Ok(0);
         };
         let kept = solver.follow(matrix, &situation.problem.origins(before))?;

@@ -9,6 +9,9 @@ use super::{
     moving::Moving,
     reuse::{Kept, Reuse},
     sliding::Carried,
+    standing::Stood,
+    step::Settled,
+    velocity_level::VelocityLevel,
     world::{Options, World},
 };
 use crate::{contact::approach::ApproachOf, formulate::Cones, io};
@@ -34,6 +37,8 @@ struct Saved<S: Moving> {
     motionless: Vec<bool>,
     steps: u64,
     before: Option<Vec<ApproachOf<S>>>,
+    stood: Option<Stood>,
+    settled: Option<Settled<S>>,
     sliding: Vec<f64>,
     impulses: Vec<S::Vector>,
     kept: Kept<ApproachOf<S>>,
@@ -86,6 +91,8 @@ impl<S: Moving> World<S> {
             motionless: self.motionless.clone(),
             steps: self.steps,
             before: self.before.as_ref().map(|before| before.approaches().to_vec()),
+            stood: self.stood.clone(),
+            settled: self.settled.clone(),
             sliding: self.sliding.clone(),
             impulses: self.impulses.clone(),
             kept: self.route.kept(),
@@ -119,6 +126,12 @@ impl<S: Moving> World<S> {
         world.motionless = saved.motionless;
         world.steps = saved.steps;
         world.before = saved.before.map(|approaches| world.problem_of(approaches));
+        let rows = world.before.as_ref().map_or(0, VelocityLevel::len);
+        if saved.stood.as_ref().is_some_and(|stood| stood.q.len() != rows) {
+            return Err(fault("its parts do not fit together"));
+        }
+        world.stood = saved.stood;
+        world.settled = saved.settled.map(Settled::of_another_finder);
         world.sliding = saved.sliding;
         world.impulses = saved.impulses;
         world.carried = saved.carried;

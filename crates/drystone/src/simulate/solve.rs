@@ -40,10 +40,10 @@ struct Trial<S: Moving> {
 }
 
 /// What stays the same in all solves of a step.
-struct Given<'a, S: Moving> {
-    problem: &'a VelocityLevel<S>,
-    free: &'a [S::Velocity],
-    offsets: &'a [f64],
+pub(super) struct Given<'a, S: Moving> {
+    pub problem: &'a VelocityLevel<S>,
+    pub free: &'a [S::Velocity],
+    pub offsets: &'a [f64],
 }
 
 impl<S: Moving> World<S> {
@@ -55,15 +55,20 @@ impl<S: Moving> World<S> {
         offsets: &[f64],
     ) -> Result<Motion<S>, StepFailure> {
         let given = Given { problem, free, offsets };
+        let mut work = Counts::default();
+        if let Some(motion) = self.stand(&given, &mut work) {
+            return Ok(motion);
+        }
         let answer = self.solve_coulomb(&given).or_else(|_| {
             self.route.restart();
             self.before = None;
             self.solve_coulomb(&given)
         });
-        answer.map_err(|status| {
+        let motion = answer.map_err(|status| {
             self.forget();
             StepFailure::Unsolved { status: status.name() }
-        })
+        })?;
+        Ok(Motion { counts: motion.counts + work, ..motion })
     }
 
     /// Takes over what can be, then looks for the fixed point of the sliding speeds.
@@ -102,6 +107,7 @@ impl<S: Moving> World<S> {
     /// Hands the matrix to the route unless it has it. Returns the rows that come with their factor.
     fn take_over(&mut self, given: &Given<'_, S>, assumed: &[f64], time: &mut Duration) -> Result<usize, Status> {
         let problem = given.problem;
+        self.take_up_stood().map_err(trouble)?;
         let situation = Situation { problem, before: self.before.as_ref(), motionless: &self.motionless };
         if self.route.has_matrix(&situation) {
             return Ok(self.route.solver().active_rows());
@@ -167,7 +173,7 @@ fn trouble(_: LcpError) -> Status {
 
 /// The sliding speeds found, and the largest error of Coulomb's law: where a contact bears, the speed at which it parts;
 /// where it does not, the speed at which it closes beyond its gap.
-fn judge<S: Moving>(
+pub(super) fn judge<S: Moving>(
     given: &Given<'_, S>,
     velocities: &[S::Velocity],
     assumed: &[f64],

@@ -20,6 +20,7 @@ use crate::{
     geometry::norm,
 };
 use drystone_lcp::Counts;
+use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// What one step did.
@@ -29,7 +30,7 @@ pub struct StepRecord {
     pub motionless: Vec<bool>,
     /// Pivots of all solves of the step; major and minor cycles.
     pub counts: Counts,
-    /// Solves: the first one, and those that make Coulomb's law exact.
+    /// Solves: the first one, and those that make Coulomb's law exact. None where the step is that before it over again.
     pub solves: usize,
     /// Rows of the step's problem.
     pub rows: usize,
@@ -54,6 +55,27 @@ pub struct StepRecord {
     pub projections: usize,
 }
 
+/// A step in which nothing moved.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub(super) struct Settled<S: Moving> {
+    /// Velocities without contacts.
+    free: Vec<S::Velocity>,
+    /// Of the approaches.
+    revision: u64,
+    /// Rows that bear.
+    bearing: usize,
+    residual: f64,
+    friction_error: f64,
+}
+
+impl<S: Moving> Settled<S> {
+    /// The same for a finder that counts its revisions anew, so that approaches are compared one by one.
+    pub fn of_another_finder(self) -> Self {
+        Self { revision: u64::MAX, ..self }
+    }
+}
+
 /// Impacts slower than what gravity gives in this many steps do not rebound: they are contacts that rest.
 const RESTING_STEPS: f64 = 4.0;
 
@@ -76,7 +98,11 @@ impl<S: Moving> World<S> {
         let spent = self.route.counts();
         let free = self.free_velocities();
 
-        let problem = self.contacts(&free)?;
+        self.look(&free)?;
+        if let Some(record) = self.stay(&free, begun) {
+            return Ok(record);
+        }
+        let problem = self.problem_of(self.finder.approaches().copied().collect());
         let motion = self.law.motion(self, &problem, &free)?;
         let motionless = self.find_motionless(&motion)?;
         let projected = self.integrate(motion.velocities, motionless);
@@ -100,7 +126,55 @@ impl<S: Moving> World<S> {
             projections: projected.rounds,
         };
         self.before = Some(problem);
+        self.settled = self.settled(free, &record);
         Ok(record)
+    }
+
+    /// What the next step may be compared with: this one, if nothing moved in it.
+    fn settled(&self, free: Vec<S::Velocity>, record: &StepRecord) -> Option<Settled<S>> {
+        let still = record.motionless.iter().all(|&still| still) && record.inconsistent.is_none();
+        let bearing = match &self.stood {
+            Some(stood) => stood.start.indices.len(),
+            None => self.route.active_rows(),
+        };
+        (self.options.reuse == Reuse::Full && still && record.collisions == 0).then_some(Settled {
+            free,
+            revision: self.finder.revision,
+            bearing,
+            residual: record.residual,
+            friction_error: record.friction_error,
+        })
+    }
+
+    /// Makes the step before over again, if this is the same: nothing moves, and no body or push has come or gone.
+    fn stay(&mut self, free: &[S::Velocity], begun: Instant) -> Option<StepRecord> {
+        let (settled, before) = self.settled.as_mut().zip(self.before.as_ref())?;
+        if settled.free != free || !self.velocities.iter().all(is_zero) {
+            return None;
+        }
+        if settled.revision != self.finder.revision {
+            if !self.finder.approaches().eq(before.approaches()) {
+                return None;
+            }
+            settled.revision = self.finder.revision;
+        }
+        self.forces.fill(S::Velocity::default());
+        self.steps += 1;
+        Some(StepRecord {
+            motionless: self.motionless.clone(),
+            counts: Counts::default(),
+            solves: 0,
+            rows: before.len(),
+            rows_reused: settled.bearing,
+            solve_time: Duration::ZERO,
+            time: begun.elapsed(),
+            residual: settled.residual,
+            friction_error: settled.friction_error,
+            collisions: 0,
+            inconsistent: None,
+            penetration: self.finder.penetration(),
+            projections: 0,
+        })
     }
 
     /// `v* = v + h M^-1 F`: what the velocities would be without contacts.
@@ -127,8 +201,8 @@ impl<S: Moving> World<S> {
         (0..velocities.len()).map(free).collect()
     }
 
-    /// Every approach that may close within the step.
-    fn contacts(&mut self, free: &[S::Velocity]) -> Result<VelocityLevel<S>, StepFailure> {
+    /// Finds every approach that may close within the step.
+    fn look(&mut self, free: &[S::Velocity]) -> Result<(), StepFailure> {
         if self.options.reuse != Reuse::Full {
             self.finder.clear();
         }
@@ -136,12 +210,12 @@ impl<S: Moving> World<S> {
         if let Some((body, pair)) = self.finder.whirling() {
             return Err(self.too_fast(body, pair, free));
         }
-        Ok(self.problem_of(self.finder.approaches().copied().collect()))
+        Ok(())
     }
 
     /// The rows of some approaches.
     pub(super) fn problem_of(&self, approaches: Vec<ApproachOf<S>>) -> VelocityLevel<S> {
-        VelocityLevel::new(approaches, self.options.cones, self.scene.gravity())
+        VelocityLevel::after(self.before.as_ref(), approaches, self.options.cones, self.scene.gravity())
     }
 
     fn find_approaches(&mut self, free: &[S::Velocity]) {

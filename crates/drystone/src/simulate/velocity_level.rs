@@ -35,19 +35,30 @@ pub struct VelocityLevel<S: Moving = Polygon> {
     approaches: Vec<ApproachOf<S>>,
     /// First row of every approach, and the number of rows.
     starts: Vec<usize>,
-    /// Unit direction of every row.
+    /// Unit direction of every row, and its approach.
     directions: Vec<S::Vector>,
+    approach_of: Vec<usize>,
     /// Coefficient at the cone's edges, and `sqrt(1 + mu^2)`, of every approach.
     edges: Vec<[f64; 2]>,
 }
 
 impl<S: Moving> VelocityLevel<S> {
     pub fn new(approaches: Vec<ApproachOf<S>>, cones: Cones, gravity: S::Vector) -> Self {
+        Self::after(None, approaches, cones, gravity)
+    }
+
+    /// The same, with the cones' edges of approaches that were there before.
+    pub fn after(before: Option<&Self>, approaches: Vec<ApproachOf<S>>, cones: Cones, gravity: S::Vector) -> Self {
         let mut starts = Vec::with_capacity(approaches.len() + 1);
-        let mut directions = Vec::with_capacity(2 * approaches.len());
+        let mut directions = Vec::with_capacity(before.map_or(2 * approaches.len(), Self::len));
+        let mut known = before.iter().flat_map(|before| before.approaches.iter().enumerate()).peekable();
         starts.push(0);
         for approach in &approaches {
-            directions.extend(S::edges(cones, approach.normal, approach.friction, gravity));
+            while known.next_if(|(_, old)| old.id < approach.id).is_some() {}
+            match before.zip(known.next_if(|(_, old)| old.same_geometry(approach))) {
+                Some((before, (old, _))) => directions.extend_from_slice(&before.directions[before.rows(old)]),
+                None => directions.extend(S::edges(cones, approach.normal, approach.friction, gravity)),
+            }
             starts.push(directions.len());
         }
         let edge = |approach: &ApproachOf<S>| {
@@ -55,7 +66,9 @@ impl<S: Moving> VelocityLevel<S> {
             [friction, friction.hypot(1.0)]
         };
         let edges = approaches.iter().map(edge).collect();
-        Self { approaches, starts, directions, edges }
+        let approach_of =
+            (0..approaches.len()).flat_map(|k| std::iter::repeat_n(k, starts[k + 1] - starts[k])).collect();
+        Self { approaches, starts, directions, approach_of, edges }
     }
 
     pub fn approaches(&self) -> &[ApproachOf<S>] {
@@ -79,7 +92,7 @@ impl<S: Moving> VelocityLevel<S> {
 
     /// `A = G' M^-1 G` and q. `inverse_mass`: the diagonal of M^-1, zero for a fixed body.
     pub fn problem(&self, inverse_mass: &[S::Velocity], q: Vec<f64>) -> Result<Problem, LcpError> {
-        Problem::from_generators_and_q(&self.generators(inverse_mass)?, &flat(inverse_mass), q)
+        Problem::from_generators_and_q(&self.generators(0..self.len(), inverse_mass)?, &flat(inverse_mass), q)
     }
 
     /// The same from the problem before it, of which only the rows that moved are made anew where the others are as they were.
@@ -96,28 +109,43 @@ impl<S: Moving> VelocityLevel<S> {
             return self.problem(inverse_mass, q);
         }
         let moved: Vec<bool> = origins.iter().map(|origin| matches!(origin, Origin::Moved(_))).collect();
-        last.with_moved_generators(&self.generators(inverse_mass)?, &moved, &flat(inverse_mass), q)
+        last.with_moved_generators(&self.generators(0..self.len(), inverse_mass)?, &moved, &flat(inverse_mass), q)
     }
 
-    fn generators(&self, inverse_mass: &[S::Velocity]) -> Result<Columns, LcpError> {
+    /// The columns of G for some rows, in order; nothing acts on fixed bodies.
+    pub fn generators(
+        &self,
+        rows: impl ExactSizeIterator<Item = usize>,
+        inverse_mass: &[S::Velocity],
+    ) -> Result<Columns, LcpError> {
         let size = components::<S>();
-        let mut indptr = Vec::with_capacity(self.len() + 1);
+        let mut indptr = Vec::with_capacity(rows.len() + 1);
         let (mut indices, mut data) =
-            (Vec::with_capacity(2 * size * self.len()), Vec::with_capacity(2 * size * self.len()));
+            (Vec::with_capacity(2 * size * rows.len()), Vec::with_capacity(2 * size * rows.len()));
         indptr.push(0);
-        for (k, approach) in self.approaches.iter().enumerate() {
-            for row in self.rows(k) {
-                for (side, sign) in [(0, -1.0), (1, 1.0)] {
-                    let body = approach.id.bodies[side];
-                    if !is_zero(&inverse_mass[body]) {
-                        indices.extend(size * body..size * (body + 1));
-                        data.extend(wrench::<S>(&approach.levers[side], &self.directions[row], sign).as_ref());
-                    }
+        for row in rows {
+            let approach = &self.approaches[self.approach_of[row]];
+            for (side, sign) in [(0, -1.0), (1, 1.0)] {
+                let body = approach.id.bodies[side];
+                if !is_zero(&inverse_mass[body]) {
+                    indices.extend(size * body..size * (body + 1));
+                    data.extend(wrench::<S>(&approach.levers[side], &self.directions[row], sign).as_ref());
                 }
-                indptr.push(indices.len());
             }
+            indptr.push(indices.len());
         }
         Columns::new(size * inverse_mass.len(), &indptr, &indices, &data)
+    }
+
+    /// `A_ii`: the speed along a row's direction that a unit of its impulse gives, 1/kg.
+    pub fn yielding(&self, row: usize, inverse_mass: &[S::Velocity]) -> f64 {
+        let approach = &self.approaches[self.approach_of[row]];
+        let of = |side: usize| {
+            let wrench = wrench::<S>(&approach.levers[side], &self.directions[row], 1.0);
+            let inverse = inverse_mass[approach.id.bodies[side]].as_ref();
+            inverse.iter().zip(wrench.as_ref()).map(|(inverse, w)| inverse * w * w).sum::<f64>()
+        };
+        of(0) + of(1)
     }
 
     /// `q` for velocities without impulses `free`, offsets `c` and sliding speeds `s`, one an approach.

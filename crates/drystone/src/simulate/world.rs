@@ -6,6 +6,8 @@ use super::{
     moving::{Moving, inverse_mass, masses, split},
     reuse::{Reuse, Route},
     sliding::Carried,
+    standing::Stood,
+    step::Settled,
     velocity_level::{VelocityLevel, wrench},
 };
 use crate::{
@@ -77,6 +79,10 @@ pub struct World<S: Moving = Polygon> {
     pub(super) impulses: Vec<S::Vector>,
     /// On the acceleration level with full reuse: where solves of islands with sliding contacts start.
     pub(super) carried: Carried,
+    /// The solution of the last step, where no solver was made for it.
+    pub(super) stood: Option<Stood>,
+    /// The last step, if nothing moved in it and everything is taken over.
+    pub(super) settled: Option<Settled<S>>,
 }
 
 impl<S: Moving> fmt::Debug for World<S> {
@@ -146,6 +152,8 @@ impl<S: Moving> World<S> {
             sliding: Vec::new(),
             impulses: Vec::new(),
             carried: Carried::default(),
+            stood: None,
+            settled: None,
             options,
             scene,
         };
@@ -350,6 +358,8 @@ impl<S: Moving> World<S> {
         self.sliding.clear();
         self.impulses.clear();
         self.carried = Carried::default();
+        self.stood = None;
+        self.settled = None;
     }
 
     /// A number for the state: equal for equal places, velocities, pending forces and step counts, to the bit.

@@ -1,0 +1,161 @@
+//! Steps of a world at rest without a solve: impulses that keep everything where it is, if there are any.
+//!
+//! Bodies at rest stay so if impulses along the closed contacts take up what would move them,
+//!
+//! ```text
+//! G p = -M v*,    p >= 0,
+//! ```
+//!
+//! and then w = A p + q is zero on their rows and nowhere negative: the problem of `velocity_level.rs` is solved, and A was never
+//! made. To decide this takes far less than that problem (docs/theory/equilibrium.md), for G is sparser than A. The next step
+//! that differs solves from there (Theorem 1). Where something falls at once this tells nothing.
+
+use super::{
+    moving::{Moving, axes, components, is_zero, masses},
+    reuse::Reuse,
+    solve::{Given, Motion, judge},
+    velocity_level::VelocityLevel,
+    world::World,
+};
+use crate::{geometry::product, scene::SceneOf};
+use drystone_lcp::{
+    Counts, LcpError, Settings, Start,
+    cone::{ConeSolver, Membership},
+};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
+
+/// The solution of a step's problem for which no solver was made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Stood {
+    /// Rows that bear, with their impulses.
+    pub start: Start,
+    pub q: Vec<f64>,
+}
+
+/// Impulses of the rows that bear where all bodies can stay where they are, and the work it took to find out.
+struct Held {
+    start: Option<Start>,
+    work: Counts,
+}
+
+impl<S: Moving> World<S> {
+    /// Solves a step in which all bodies, at rest so far, stay so. None if they do not, if that is not taken over, or if
+    /// there is a step before. `work` is what it took either way.
+    pub(super) fn stand(&mut self, given: &Given<'_, S>, work: &mut Counts) -> Option<Motion<S>> {
+        let at_rest = self.velocities.iter().all(is_zero);
+        if self.options.reuse != Reuse::Full || self.before.is_some() || !at_rest {
+            return None;
+        }
+        let begun = Instant::now();
+        let contacts = given.problem;
+        let held = held(&self.scene, contacts, given.free, &self.inverse_mass).ok()?;
+        *work = *work + held.work;
+        let start = held.start?;
+        let mut p = vec![0.0; contacts.len()];
+        start.indices.iter().zip(&start.z).for_each(|(&row, &z)| p[row] = z);
+        let velocities = contacts.velocities(given.free, &self.inverse_mass, |row| p[row]);
+        let residual = self.residual(given, &velocities, &p);
+        if residual > Settings::default().residual {
+            return None;
+        }
+        let none = vec![0.0; contacts.approaches().len()];
+        let (_, friction_error) = judge(given, &velocities, &none, |row| p[row]);
+        let q = contacts.q(given.free, given.offsets, &none);
+        self.stood = Some(Stood { start, q });
+        Some(Motion {
+            velocities,
+            sliding: none,
+            impulses: (0..contacts.approaches().len()).map(|k| contacts.impulse(k, |row| p[row])).collect(),
+            friction_error,
+            residual,
+            solves: 1,
+            rows_reused: 0,
+            time: begun.elapsed(),
+            counts: *work,
+            collisions: 0,
+            inconsistent: None,
+        })
+    }
+
+    /// The natural residual of the step's problem, in its own scale (`drystone_lcp::solution::residual`): w is what the contacts
+    /// have after the impulses.
+    fn residual(&self, given: &Given<'_, S>, velocities: &[S::Velocity], p: &[f64]) -> f64 {
+        let none = vec![0.0; given.offsets.len()];
+        let [q, w] = [given.free, velocities].map(|v| given.problem.q(v, given.offsets, &none));
+        let (mut worst, mut scale) = (0.0_f64, 0.0_f64);
+        for (row, p) in p.iter().enumerate() {
+            let root = given.problem.yielding(row, &self.inverse_mass).sqrt();
+            let d = if root > 0.0 { root.recip() } else { 1.0 };
+            worst = worst.max((p / d).min(d * w[row]).abs());
+            scale = scale.max(p / d).max((d * q[row]).abs());
+        }
+        if worst == 0.0 { 0.0 } else { worst / scale }
+    }
+
+    /// Hands the step before, if it was solved without a solver, to the route: this one differs from it.
+    pub(super) fn take_up_stood(&mut self) -> Result<(), LcpError> {
+        let Some((before, Stood { start, q })) = self.before.as_ref().zip(self.stood.take()) else { return Ok(()) };
+        match self.route.begin_from(before.problem(&self.inverse_mass, q)?, &start) {
+            // Its rows depend on one another, or nearly: this solve begins from nothing.
+            Err(LcpError::Start(_)) => {
+                self.forget();
+                Ok(())
+            }
+            done => done,
+        }
+    }
+}
+
+/// Looks for impulses that keep all bodies where they are. `free` are their velocities without contacts, `inverse_mass` is the
+/// diagonal of M^-1, zero for fixed bodies.
+///
+/// # Errors
+/// [`LcpError`] for numbers that are not finite.
+fn held<S: Moving>(
+    scene: &SceneOf<S>,
+    contacts: &VelocityLevel<S>,
+    free: &[S::Velocity],
+    inverse_mass: &[S::Velocity],
+) -> Result<Held, LcpError> {
+    let approaches = contacts.approaches().iter().enumerate();
+    let closed = approaches.filter(|(_, approach)| approach.gap <= 0.0);
+    let rows: Vec<usize> = closed.flat_map(|(k, _)| contacts.rows(k)).collect();
+    let (loads, units) = loads(scene, free);
+    let mut solver = ConeSolver::new(contacts.generators(rows.iter().copied(), inverse_mass)?, &loads, &units)?;
+    let size = components::<S>();
+    for body in upward(scene) {
+        solver.add_rows(&(size * body..size * (body + 1)).collect::<Vec<_>>());
+        solver.decide();
+    }
+    let stands = solver.solve() == Membership::Inside;
+    let bearing = rows.iter().enumerate().map(|(column, &row)| (row, solver.f(column))).filter(|(_, p)| *p > 0.0);
+    let (indices, z) = bearing.unzip();
+    Ok(Held { start: stands.then_some(Start { indices, z }), work: solver.counts() })
+}
+
+/// The movable bodies by height.
+fn upward<S: Moving>(scene: &SceneOf<S>) -> Vec<usize> {
+    let (bodies, gravity) = (scene.bodies(), scene.gravity());
+    let depth = |i: usize| product(&gravity, &S::place(&bodies[i].pose));
+    let mut order: Vec<usize> = (0..bodies.len()).filter(|&i| !bodies[i].fixed).collect();
+    order.sort_by(|&a, &b| depth(b).total_cmp(&depth(a)));
+    order
+}
+
+/// `-M v*`, and the unit in which each entry's imbalance is measured: what gives the body the largest speed of all, at its
+/// centroid or at its radius of gyration.
+fn loads<S: Moving>(scene: &SceneOf<S>, free: &[S::Velocity]) -> (Vec<f64>, Vec<f64>) {
+    let fastest = free.iter().flat_map(|v| v.as_ref()).fold(0.0, |most: f64, v| v.abs().max(most));
+    let speed = if fastest > 0.0 { fastest } else { 1.0 };
+    let (mut loads, mut units) = (Vec::new(), Vec::new());
+    for (body, free) in scene.bodies().iter().zip(free) {
+        let masses = masses(body);
+        for (axis, (mass, velocity)) in masses.as_ref().iter().zip(free.as_ref()).enumerate() {
+            let of_unit = if axis < axes::<S>() { *mass } else { (mass * body.mass()).sqrt() };
+            loads.push(-mass * velocity);
+            units.push(of_unit * speed);
+        }
+    }
+    (loads, units)
+}
