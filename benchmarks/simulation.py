@@ -1,8 +1,9 @@
 """Time per step and drift of simulations: drystone and its peers, one thread, in turns.
 
-    python benchmarks/simulation.py [--quick] [--scenes ...] [--rates ...] [--simulators ...]
+    python benchmarks/simulation.py [--quick] [--space] [--scenes ...] [--rates ...]
+        [--simulators ...]
 
-Results go to results/<machine>/<version>-<date>-simulation.csv and to the screen. The file is
+Results go to results/<machine>/<version>-<date>-simulation[-space].csv and to the screen. The file is
 rewritten after every scene, so that an interrupted run leaves what it measured.
 """
 
@@ -56,9 +57,19 @@ STILL: dict[str, Callable[[str], bool]] = {
 
 QUICK = ("col20", "fall7")
 
+SPACE = ("col20", "pyr13", "fall7")
+"""The scenes that are simulated as boxes in space too."""
+
+DEPTH = 1.0
+"""Metres, of these boxes."""
+
+MOST_FROM_SCRATCH = 30
+"""Blocks in space: with more a step from scratch takes a second, and 1,200 are too many."""
+
 COLUMNS = (
     *results.WHERE,
     "scene",
+    "dimension",
     "blocks",
     "friction",
     "dt",
@@ -109,6 +120,7 @@ class Case:
     """One scene at one time step, with everybody's results."""
 
     scene: str
+    dimension: int
     blocks: int
     rate: int
     results: dict[str, Measured]
@@ -135,15 +147,16 @@ def main() -> None:
         if not simulator.missing():
             with console.status(f"{simulator.name}: being made ready"):
                 simulator.prepare()
-    names = arguments.scenes or (QUICK if arguments.quick else STILL)
+    dimension = 3 if arguments.space else 2
+    names = arguments.scenes or (QUICK if arguments.quick else SPACE if arguments.space else STILL)
     path = results.path_in(arguments.output)
-    ending = "-simulation-quick.csv" if arguments.quick else "-simulation.csv"
+    ending = f"-simulation{'-space' * arguments.space}{'-quick' * arguments.quick}.csv"
     path = path.with_name(path.name + ending)
     cases: list[Case] = []
     for rate in arguments.rates:
         for name in names:
             with console.status(f"{name}, dt = 1/{rate}") as status:
-                cases.append(measure(name, rate, simulators, status.update))
+                cases.append(measure(name, rate, simulators, status.update, dimension=dimension))
             show(console, cases[-1])
             results.write_lines(path, COLUMNS, _lines(cases))
     console.print(f"wrote {path}", soft_wrap=True)
@@ -155,12 +168,22 @@ def measure(
     simulators: dict[str, Simulator],
     say: Callable[[str], None] = lambda text: None,
     rounds: int = ROUNDS,
+    dimension: int = 2,
 ) -> Case:
     """Every simulator in turn, then all again in the opposite order, and so on."""
     scene = getattr(ds.scenes, name)(friction=FRICTION)
+    if dimension == 3:
+        scene = scene.extruded(DEPTH)
     steps, every = SECONDS * rate, rate // LOOKS
     still = np.array([not body.fixed and STILL[name](body.name) for body in scene.bodies])
-    measured = {key: Measured(peer, peer.missing()) for key, peer in simulators.items()}
+    measured = {
+        key: Measured(peer, peer.missing())
+        for key, peer in simulators.items()
+        if dimension in peer.dimensions
+    }
+    if dimension == 3 and len(scene) > MOST_FROM_SCRATCH:
+        for key in {"motionless", "none"} & measured.keys():
+            measured[key].refused = "left out: a second a step"
     running = [key for key, result in measured.items() if not result.refused]
     for round_ in range(rounds):
         for key in running if round_ % 2 == 0 else running[::-1]:
@@ -174,13 +197,14 @@ def measure(
                 _judge(result, judge.Boxes.of(scene), motion.frames, still)
         running = [key for key in running if _repeats(measured[key], steps)]
     load = os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan
-    return Case(name, int((~judge.Boxes.of(scene).fixed).sum()), rate, measured, load)
+    blocks = int((~judge.Boxes.of(scene).fixed).sum())
+    return Case(name, dimension, blocks, rate, measured, load)
 
 
 def _judge(
     result: Measured, boxes: judge.Boxes, frames: NDArray[np.float64], still: NDArray[np.bool_]
 ) -> None:
-    result.displacement = judge.displacement(frames, still)
+    result.displacement = judge.displacement(frames, still, boxes.dimension)
     result.penetration = judge.penetration(boxes, frames)
     result.energy_rise = judge.energy_rise(boxes, frames)
 
@@ -192,7 +216,8 @@ def _repeats(result: Measured, steps: int) -> bool:
 
 def show(console: Console, case: Case) -> None:
     """All simulators on one scene."""
-    title = f"{case.scene}: {case.blocks} blocks, {SECONDS} s at dt = 1/{case.rate}"
+    where = "in space" if case.dimension == 3 else "in the plane"
+    title = f"{case.scene}: {case.blocks} blocks {where}, {SECONDS} s at dt = 1/{case.rate}"
     table = Table(title=title, title_justify="left")
     table.add_column("simulator")
     for name in ("us a step", "/ full", "of least", "drift m", "penetration m", "energy rise J"):
@@ -217,6 +242,7 @@ def _lines(cases: list[Case]) -> Iterator[dict[str, object]]:
     for case in cases:
         common = results.where(case.load) | {
             "scene": case.scene,
+            "dimension": case.dimension,
             "blocks": case.blocks,
             "friction": f"{FRICTION:g}",
             "dt": f"1/{case.rate}",
@@ -243,6 +269,7 @@ def _lines(cases: list[Case]) -> Iterator[dict[str, object]]:
 def _arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--quick", action="store_true", help=f"only {' and '.join(QUICK)}")
+    parser.add_argument("--space", action="store_true", help="as boxes in space")
     parser.add_argument("--scenes", nargs="+", choices=STILL, metavar="SCENE")
     parser.add_argument(
         "--rates",

@@ -18,7 +18,8 @@ class Motion:
     seconds: float
     """All steps, and nothing but the steps: no set-up, no recording."""
     frames: NDArray[np.float64]
-    """(k, n, 6): x, y (m), angle (rad) and their rates, at first and every so many steps."""
+    """(k, n, 6): x, y (m), angle (rad) and their rates, at first and every so many steps. In space
+    (k, n, 13): x, y, z, a unit quaternion (w, x, y, z), m/s, and rad/s along the world's axes."""
     stopped: str = ""
     """Why it did not get to the end; empty if it did."""
 
@@ -28,6 +29,8 @@ class Simulator(ABC):
 
     name: str
     """In tables and results."""
+    dimensions: tuple[int, ...] = (2,)
+    """Of the scenes that it can move."""
 
     @abstractmethod
     def version(self) -> str:

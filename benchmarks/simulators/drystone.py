@@ -15,6 +15,8 @@ from simulators.base import Motion, Simulator
 class Drystone(Simulator):
     """`drystone.simulate`."""
 
+    dimensions = (2, 3)
+
     def __init__(self, reuse: str) -> None:
         self.reuse = reuse
         self.name = f"drystone {reuse}"

@@ -1,4 +1,5 @@
-"""MuJoCo: boxes one metre deep, each on two slides and a hinge; pyramidal friction cones.
+"""MuJoCo: in the plane boxes one metre deep, each on two slides and a hinge; in space free bodies.
+Friction cones are pyramids.
 
 Its settings are its own (Newton's method, Euler integration) but for the time step and the
 friction. It never sleeps.
@@ -11,12 +12,14 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Iterable
 from importlib import metadata
 from typing import Any
 
 import numpy as np
 
 import drystone as ds
+from judge import axes_of
 from simulators.base import Motion, Simulator
 
 DEPTH = 1.0
@@ -27,6 +30,7 @@ class MuJoCo(Simulator):
     """`mujoco` from PyPI."""
 
     name = "MuJoCo"
+    dimensions = (2, 3)
 
     def version(self) -> str:
         """See `Simulator.version`."""
@@ -46,26 +50,55 @@ class MuJoCo(Simulator):
         bodies = json.loads(scene.to_json())["bodies"]
         model = mujoco.MjModel.from_xml_string(_xml(scene, bodies, dt))
         data = mujoco.MjData(model)
-        frames = [_states(bodies, data)]
+        states = _states if scene.dimension == 2 else _states_in_space
+        frames = [states(bodies, data)]
         seconds = 0.0
         for _ in range(steps // every):
             begin = time.perf_counter()
             mujoco.mj_step(model, data, nstep=every)
             seconds += time.perf_counter() - begin
-            frames.append(_states(bodies, data))
+            frames.append(states(bodies, data))
         return Motion(seconds, np.array(frames))
 
 
 def _xml(scene: ds.Scene, bodies: list[dict[str, Any]], dt: float) -> str:
     """The plane is MuJoCo's x and z. Its y axis points away, so that angles change sign."""
-    gx, gy = scene.gravity
+    if scene.dimension == 2:
+        gravity, made = (scene.gravity[0], 0.0, scene.gravity[1]), _body
+    else:
+        gravity, made = scene.gravity, _free_body
     return f"""<mujoco>
   <compiler angle="radian"/>
-  <option timestep="{dt!r}" gravity="{gx!r} 0 {gy!r}" cone="pyramidal"/>
+  <option timestep="{dt!r}" gravity="{_spaced(gravity)}" cone="pyramidal"/>
   <size memory="500M"/>
   <default><geom type="box" condim="3"/></default>
-  <worldbody>{"".join(_body(body, scene.friction) for body in bodies)}</worldbody>
+  <worldbody>{"".join(made(body, scene.friction) for body in bodies)}</worldbody>
 </mujoco>"""
+
+
+def _spaced(numbers: Iterable[float]) -> str:
+    return " ".join(repr(float(x)) for x in numbers)
+
+
+def _free_body(body: dict[str, Any], friction: float) -> str:
+    geom = (
+        f'<geom size="{_spaced(side / 2 for side in body["box"]["size"])}" density="{body["density"]!r}"'
+        f' friction="{body.get("friction", friction)!r} 0 0"/>'
+    )
+    place = f'pos="{_spaced(body["position"])}" quat="{_spaced(body["orientation"])}"'
+    return f"<body {place}>{'' if body['fixed'] else '<freejoint/>'}{geom}</body>"
+
+
+def _states_in_space(bodies: list[dict[str, Any]], data: Any) -> list[Any]:
+    """Turning is along the body's own axes in MuJoCo."""
+    places, rates = data.qpos.reshape(-1, 7), data.qvel.reshape(-1, 6)
+    turning = np.einsum("iax,ia->ix", axes_of(places, 3), rates[:, 3:])
+    moved = iter(np.hstack([places, rates[:, :3], turning]))
+    begin = [
+        np.array([*body["position"], *body["orientation"], *6 * [0.0]], dtype=float)
+        for body in bodies
+    ]
+    return [b if body["fixed"] else next(moved) for body, b in zip(bodies, begin, strict=True)]
 
 
 def _body(body: dict[str, Any], friction: float) -> str:

@@ -49,6 +49,66 @@ def test_energy_rise_and_displacement() -> None:
     assert math.isnan(judge.displacement(frames, np.array([False, False])))
 
 
+def _cubes(offset: tuple[float, float, float], turned: tuple[float, ...]) -> float:
+    """How deep two unit cubes are in one another, the second turned by a quaternion."""
+    scene = ds.Scene(dimension=3)
+    scene.add_box((0, 0, 0), (1, 1, 1))
+    scene.add_box((3, 0, 0), (1, 1, 1))
+    frame = np.zeros((1, 2, 13))
+    frame[0, :, 3] = 1.0
+    frame[0, 1, :3], frame[0, 1, 3:7] = offset, turned
+    return judge.penetration(judge.Boxes.of(scene), frame)
+
+
+def test_penetration_of_two_cubes() -> None:
+    straight, half = (1.0, 0.0, 0.0, 0.0), math.pi / 8
+    about_z = (math.cos(half), 0.0, 0.0, math.sin(half))
+    assert _cubes((1.25, 0, 0), straight) == 0.0
+    assert _cubes((0.75, 0.1, 0.2), straight) == pytest.approx(0.25, abs=1e-15)
+    assert _cubes((1.0, 0, 0), about_z) == pytest.approx(0.5**0.5 - 0.5, abs=1e-15)
+    # Edge over edge: the upper edge of the first along y, the lower one of the other along x.
+    lower = math.sqrt(2)
+    frame = np.zeros((1, 2, 13))
+    frame[0, 0, 3:7] = math.cos(half), 0.0, math.sin(half), 0.0
+    frame[0, 1, 3:7] = math.cos(half), math.sin(half), 0.0, 0.0
+    scene = ds.Scene(dimension=3)
+    scene.add_box((0, 0, 0), (1, 1, 1))
+    scene.add_box((3, 0, 0), (1, 1, 1))
+    for height, depth in [(lower + 0.01, 0.0), (lower - 0.01, 0.01)]:
+        frame[0, 1, 2] = height
+        assert judge.penetration(judge.Boxes.of(scene), frame) == pytest.approx(depth, abs=1e-12)
+
+
+def test_energy_in_space() -> None:
+    """A brick that turns about its long side, wherever that points."""
+    scene = ds.Scene(dimension=3, gravity=(0, 0, 0))
+    scene.add_box((0, 0, 0), (3, 1, 2))
+    frames = np.zeros((2, 1, 13))
+    half = math.pi / 4  # The long side along y.
+    frames[:, 0, 3], frames[:, 0, 6] = math.cos(half), math.sin(half)
+    frames[1, 0, 11] = 2.0
+    boxes = judge.Boxes.of(scene)
+    assert judge.energy_rise(boxes, frames) == pytest.approx(0.5 * 6 * (1 + 4) / 12 * 4)
+
+
+@pytest.mark.parametrize("key", [key for key in SIMULATORS if 3 in SIMULATORS[key].dimensions])
+def test_simulators_in_space(key: str) -> None:
+    """A turned box that spins falls freely for a twentieth of a second."""
+    simulator = SIMULATORS[key]
+    if simulator.missing():
+        pytest.skip(simulator.missing())
+    scene = ds.Scene(dimension=3)
+    scene.add_box((0, 0, -0.5), (9, 9, 1), name="ground", fixed=True)
+    scene.add_box((1, 2, 3), (1, 0.5, 0.25), orientation=(0.6, 0, 0.8, 0), name="block")
+    motion = simulator.run(scene, 0.001, 50, 25)
+    begin, end = motion.frames[0], motion.frames[-1]
+    assert motion.frames.shape == (3, 2, 13)
+    assert begin[1] == pytest.approx([1, 2, 3, 0.6, 0, 0.8, 0, *6 * [0]])
+    fallen = 0.5 * 9.81 * 0.05**2
+    expected = [1, 2, 3 - fallen, 0.6, 0, 0.8, 0, 0, 0, -9.81 * 0.05, 0, 0, 0]
+    assert end[1] == pytest.approx(expected, abs=3e-4)
+
+
 @pytest.mark.parametrize("key", SIMULATORS)
 def test_every_simulator_moves_the_scene(key: str) -> None:
     """A turned box falls freely for a twentieth of a second, at the rates said."""
@@ -71,9 +131,10 @@ def test_every_simulator_moves_the_scene(key: str) -> None:
     assert end[1] == pytest.approx([1, 2 - fallen, 0.25, 0, -9.81 * 0.05, 0], abs=3e-4)
 
 
-def test_a_scene_measured_in_turns() -> None:
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_scene_measured_in_turns(dimension: int) -> None:
     peers = {key: SIMULATORS[key] for key in ("full", "none")}
-    case = simulation.measure("fall7", 240, peers, rounds=2)
+    case = simulation.measure("fall7", 240, peers, rounds=2, dimension=dimension)
     assert case.blocks == 7
     for result in case.results.values():
         assert len(result.times) == 2
