@@ -1,8 +1,8 @@
 """What a simulated motion got wrong, by one measure for everybody, from the places recorded.
 
-A frame has a row of numbers for each box: in the plane x, y, angle and their rates; in space x, y, z, a
-unit quaternion (w, x, y, z), and the rates of the centre and of the turning, both along the axes of the
-world.
+A frame has a row of numbers for each box: in the plane x, y, angle and their rates; in space x, y,
+z, a unit quaternion (w, x, y, z), and the rates of the centre and of the turning, both along the
+axes of the world.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ def axes_of(frames: Floats, dimension: int) -> Floats:
 
 
 def _deepest(boxes: Boxes, frame: Floats) -> float:
-    """By separating axes: the sides of either box, and in space what is square to a side of each."""
+    """By separating axes: the sides of either box, in space also what is square to two of them."""
     d, half = boxes.dimension, 0.5 * boxes.size
     axes = axes_of(frame, d)
     offset = frame[None, :, :d] - frame[:, None, :d]
@@ -103,7 +103,7 @@ def _deepest(boxes: Boxes, frame: Floats) -> float:
 
 
 def _gap(half: Floats, axes: Floats, offset: Floats, along: Floats) -> Floats:
-    """(n, n): the greatest gap of two boxes over the directions `along` (n, n, k, d); none if zero."""
+    """(n, n): the greatest gap of two boxes over directions `along` (n, n, k, d), if not zero."""
     apart = np.abs(np.einsum("ijkx,ijx->ijk", along, offset))
     first = np.einsum("ib,ijkb->ijk", half, np.abs(np.einsum("ijkx,ibx->ijkb", along, axes)))
     second = np.einsum("jb,ijkb->ijk", half, np.abs(np.einsum("ijkx,jbx->ijkb", along, axes)))

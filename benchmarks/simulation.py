@@ -3,8 +3,8 @@
     python benchmarks/simulation.py [--quick] [--space] [--scenes ...] [--rates ...]
         [--simulators ...]
 
-Results go to results/<machine>/<version>-<date>-simulation[-space].csv and to the screen. The file is
-rewritten after every scene, so that an interrupted run leaves what it measured.
+Results go to results/<machine>/<version>-<date>-simulation[-space].csv and to the screen. The
+file is rewritten after every scene, so that an interrupted run leaves what it measured.
 """
 
 from __future__ import annotations

@@ -81,8 +81,9 @@ def _spaced(numbers: Iterable[float]) -> str:
 
 
 def _free_body(body: dict[str, Any], friction: float) -> str:
+    half = _spaced(side / 2 for side in body["box"]["size"])
     geom = (
-        f'<geom size="{_spaced(side / 2 for side in body["box"]["size"])}" density="{body["density"]!r}"'
+        f'<geom size="{half}" density="{body["density"]!r}"'
         f' friction="{body.get("friction", friction)!r} 0 0"/>'
     )
     place = f'pos="{_spaced(body["position"])}" quat="{_spaced(body["orientation"])}"'

@@ -366,10 +366,10 @@ def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[
     return numbers(value, 3 * world.dimension - 3, f'block "{name}": velocity', units)
 
 
-def numbers(value: Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
-    """`value` as so many floats; SimulationError naming `what` otherwise."""
+def numbers(value: float | Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
+    """`value` as so many floats, one may stand alone; SimulationError naming `what` otherwise."""
     try:
-        found = tuple(float(x) for x in value)
+        found = tuple(map(float, (value,) if isinstance(value, int | float) else value))
     except (TypeError, ValueError):
         found = ()
     if len(found) != count:

@@ -178,10 +178,9 @@ class World:
     ) -> tuple[tuple[float, ...], tuple[float, ...] | None]:
         """Force and moment in one, and where it acts."""
         axes = self.dimension
-        if axes == 2:
-            turning = numbers((0.0 if moment is None else moment,), 1, "moment", f"{unit} m")
-        else:
-            turning = numbers((0, 0, 0) if moment is None else moment, 3, "moment", f"{unit} m")
+        count = 1 if axes == 2 else 3
+        given = (0.0,) * count if moment is None else moment
+        turning = numbers(given, count, "moment", f"{unit} m")
         place = None if at is None else numbers(at, axes, "at", "m")
         return numbers(force, axes, what, unit) + turning, place
 

@@ -23,9 +23,7 @@ fn fixed(name: &str) -> BodyOptions {
 }
 
 fn on_ground(friction: f64) -> SceneInSpace {
-    let mut scene = SceneInSpace::new([0.0, 0.0, -G], friction).unwrap();
-    scene.add_cuboid(at([0.0, 0.0, -0.5]), [100.0, 100.0, 1.0], fixed("ground")).unwrap();
-    scene
+    scenes::extruded(&motion::on_ground(friction), 100.0).unwrap()
 }
 
 fn world(scene: SceneInSpace) -> WorldInSpace {

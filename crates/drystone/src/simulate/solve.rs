@@ -181,13 +181,13 @@ pub(super) fn judge<S: Moving>(
 ) -> (Vec<f64>, f64) {
     let mut worst = 0.0_f64;
     let mut sliding = Vec::with_capacity(assumed.len());
-    for k in 0..given.problem.approaches().len() {
+    for (k, (assumed, offset)) in assumed.iter().zip(given.offsets).enumerate() {
         let [opening, speed] = given.problem.opening_and_sliding(k, velocities);
         let bears = given.problem.rows(k).any(|row| p(row) > 0.0);
         worst = worst.max(match given.problem.friction(k) {
             0.0 => 0.0,
-            friction if bears => friction * (speed - assumed[k]).abs(),
-            _ => -(opening + given.offsets[k]),
+            friction if bears => friction * (speed - assumed).abs(),
+            _ => -(opening + offset),
         });
         sliding.push(speed);
     }
