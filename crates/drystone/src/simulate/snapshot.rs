@@ -8,9 +8,9 @@ use super::{
     formulation::Formulation,
     moving::Moving,
     reuse::{Kept, Reuse},
+    settled::Settled,
     sliding::Carried,
     standing::Stood,
-    step::Settled,
     velocity_level::VelocityLevel,
     world::{Options, World},
 };

@@ -20,7 +20,6 @@ use crate::{
     geometry::norm,
 };
 use drystone_lcp::Counts;
-use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
 /// What one step did.
@@ -53,27 +52,6 @@ pub struct StepRecord {
     pub penetration: f64,
     /// Times overlaps were taken back; their pivots are among the step's.
     pub projections: usize,
-}
-
-/// A step in which nothing moved.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(bound = "")]
-pub(super) struct Settled<S: Moving> {
-    /// Velocities without contacts.
-    free: Vec<S::Velocity>,
-    /// Of the approaches.
-    revision: u64,
-    /// Rows that bear.
-    bearing: usize,
-    residual: f64,
-    friction_error: f64,
-}
-
-impl<S: Moving> Settled<S> {
-    /// The same for a finder that counts its revisions anew, so that approaches are compared one by one.
-    pub fn of_another_finder(self) -> Self {
-        Self { revision: u64::MAX, ..self }
-    }
 }
 
 /// Impacts slower than what gravity gives in this many steps do not rebound: they are contacts that rest.
@@ -128,53 +106,6 @@ impl<S: Moving> World<S> {
         self.before = Some(problem);
         self.settled = self.settled(free, &record);
         Ok(record)
-    }
-
-    /// What the next step may be compared with: this one, if nothing moved in it.
-    fn settled(&self, free: Vec<S::Velocity>, record: &StepRecord) -> Option<Settled<S>> {
-        let still = record.motionless.iter().all(|&still| still) && record.inconsistent.is_none();
-        let bearing = match &self.stood {
-            Some(stood) => stood.start.indices.len(),
-            None => self.route.active_rows(),
-        };
-        (self.options.reuse == Reuse::Full && still && record.collisions == 0).then_some(Settled {
-            free,
-            revision: self.finder.revision,
-            bearing,
-            residual: record.residual,
-            friction_error: record.friction_error,
-        })
-    }
-
-    /// Makes the step before over again, if this is the same: nothing moves, and no body or push has come or gone.
-    fn stay(&mut self, free: &[S::Velocity], begun: Instant) -> Option<StepRecord> {
-        let (settled, before) = self.settled.as_mut().zip(self.before.as_ref())?;
-        if settled.free != free || !self.velocities.iter().all(is_zero) {
-            return None;
-        }
-        if settled.revision != self.finder.revision {
-            if !self.finder.approaches().eq(before.approaches()) {
-                return None;
-            }
-            settled.revision = self.finder.revision;
-        }
-        self.forces.fill(S::Velocity::default());
-        self.steps += 1;
-        Some(StepRecord {
-            motionless: self.motionless.clone(),
-            counts: Counts::default(),
-            solves: 0,
-            rows: before.len(),
-            rows_reused: settled.bearing,
-            solve_time: Duration::ZERO,
-            time: begun.elapsed(),
-            residual: settled.residual,
-            friction_error: settled.friction_error,
-            collisions: 0,
-            inconsistent: None,
-            penetration: self.finder.penetration(),
-            projections: 0,
-        })
     }
 
     /// `v* = v + h M^-1 F`: what the velocities would be without contacts.

@@ -3,18 +3,18 @@
 use super::{
     error::SimulationError,
     formulation::{Formulation, Law},
-    moving::{Moving, inverse_mass, masses, split},
+    moving::{Moving, inverse_mass, masses},
     reuse::{Reuse, Route},
+    settled::Settled,
     sliding::Carried,
     standing::Stood,
-    step::Settled,
-    velocity_level::{VelocityLevel, wrench},
+    velocity_level::VelocityLevel,
 };
 use crate::{
     contact::{ContactId, approach::ApproachFinder},
     error::SceneError,
     formulate::Cones,
-    geometry::{Numbers, Polygon, minus_of, norm, plus_times, product},
+    geometry::{Numbers, Polygon, norm, plus_times, product},
     scene::SceneOf,
 };
 use std::fmt;
@@ -219,84 +219,6 @@ impl<S: Moving> World<S> {
             along_normal: product(&approach.normal, impulse),
         });
         given.collect()
-    }
-
-    /// Sets a block's velocity in world axes: m/s, then rad/s.
-    ///
-    /// # Errors
-    /// [`SimulationError::Fixed`], [`SimulationError::NotFinite`], [`SceneError::UnknownName`].
-    pub fn set_velocity(&mut self, name: &str, velocity: S::Velocity) -> Result<(), SimulationError> {
-        let i = self.movable(name, "velocity", velocity.as_ref())?;
-        self.velocities[i] = S::to_own_axes(&self.scene.bodies()[i], &velocity);
-        Ok(())
-    }
-
-    /// Pushes a block during the next step with a force (N) at a point (world coordinates, metres; the centroid without
-    /// one) and a moment: `wrench` has both, in world axes, as velocities have. Pushes add up, and end with the step.
-    ///
-    /// # Errors
-    /// As [`Self::set_velocity`].
-    pub fn apply_force(
-        &mut self,
-        name: &str,
-        wrench: S::Velocity,
-        at: Option<S::Vector>,
-    ) -> Result<(), SimulationError> {
-        let (i, wrench) = self.about_centroid(name, "force", wrench, at)?;
-        self.forces[i].as_mut().iter_mut().zip(wrench.as_ref()).for_each(|(sum, f)| *sum += f);
-        Ok(())
-    }
-
-    /// Changes a block's velocity at once by an impulse (N s) at a point and an impulsive moment (N m s); see
-    /// [`Self::apply_force`].
-    ///
-    /// # Errors
-    /// As [`Self::set_velocity`].
-    pub fn apply_impulse(
-        &mut self,
-        name: &str,
-        wrench: S::Velocity,
-        at: Option<S::Vector>,
-    ) -> Result<(), SimulationError> {
-        let (i, wrench) = self.about_centroid(name, "impulse", wrench, at)?;
-        let change = self.inverse_mass[i].as_ref().iter().zip(wrench.as_ref());
-        self.velocities[i].as_mut().iter_mut().zip(change).for_each(|(v, (inverse, p))| *v += inverse * p);
-        Ok(())
-    }
-
-    /// A wrench at a point as one at the centroid, its moment about the body's own axes.
-    fn about_centroid(
-        &self,
-        name: &str,
-        quantity: &'static str,
-        wrench_there: S::Velocity,
-        at: Option<S::Vector>,
-    ) -> Result<(usize, S::Velocity), SimulationError> {
-        let i = self.movable(name, quantity, wrench_there.as_ref())?;
-        let body = &self.scene.bodies()[i];
-        let mut total = S::to_own_axes(body, &wrench_there);
-        if let Some(at) = at {
-            self.movable(name, quantity, at.as_ref())?;
-            let mut force = S::Vector::default();
-            force.as_mut().copy_from_slice(split::<S>(&wrench_there).0);
-            let levers = S::levers(&S::outline(body), minus_of(at, &S::place(&body.pose)));
-            let moment = wrench::<S>(&levers, &force, 1.0);
-            let axes = force.as_ref().len();
-            total.as_mut()[axes..].iter_mut().zip(&moment.as_ref()[axes..]).for_each(|(sum, m)| *sum += m);
-        }
-        Ok((i, total))
-    }
-
-    fn movable(&self, name: &str, quantity: &'static str, values: &[f64]) -> Result<usize, SimulationError> {
-        let i = self.scene.index_of(name)?;
-        let body = || name.to_owned();
-        if self.scene.bodies()[i].fixed {
-            return Err(SimulationError::Fixed { body: body(), quantity });
-        }
-        match values.iter().find(|value| !value.is_finite()) {
-            Some(&value) => Err(SimulationError::NotFinite { body: body(), quantity, value }),
-            None => Ok(i),
-        }
     }
 
     /// Takes up the bodies that a scene has beyond the world's own, at rest. What was taken over from earlier steps stays.
