@@ -256,3 +256,23 @@ fn overlaps_stay_below_a_micrometre() {
         }
     }
 }
+
+/// A block that slides over the seam of two level slabs is not stopped by the side of the second.
+#[test]
+fn seams_of_level_ground_stop_nothing() {
+    for speed in [1.7, 2.9, 3.0] {
+        let mut scene = Scene::new([0.0, -G], 0.0).unwrap();
+        for (name, x) in [("left", -5.0), ("right", 5.0)] {
+            let slab = BodyOptions { fixed: true, ..named(name) };
+            scene.add_box([x, -0.5], [10.0, 1.0], 0.0, slab).unwrap();
+        }
+        scene.add_box([-2.0, 0.5], [1.0, 1.0], 0.0, named("block")).unwrap();
+        let mut world = world(scene, 1.0 / 240.0);
+        world.set_velocity("block", [speed, 0.0, 0.0]).unwrap();
+        steps(&mut world, 400);
+        let [x, y, angle] = world.poses().nth(2).unwrap();
+        close(x, -2.0 + speed * 400.0 / 240.0, 1e-9);
+        close(y, 0.5, 1e-9);
+        close(angle, 0.0, 1e-9);
+    }
+}

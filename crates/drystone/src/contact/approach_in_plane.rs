@@ -4,8 +4,12 @@
 //! ends of the span it shares with the other block's most opposed face are the points where they can meet first. Each end is a
 //! corner of one of them before a face of the other, and its gap is the corner's distance from that face's line. A corner
 //! beyond the face's ends is left out unless the bodies' motion takes it before the face and through it within the step: the
-//! face does not reach beyond its ends, and a block that falls past an edge must not be held by it. Blocks that meet at a
-//! corner of each on their way, however far in the step, have the approach at the face where they meet.
+//! face does not reach beyond its ends, and a block that falls past an edge must not be held by it.
+//!
+//! Blocks that share a corner or nothing there may yet meet on their way: moved in a straight line, at that face of their
+//! Minkowski difference which is entered last, however far in the step. A face on which they touch already goes first, of several
+//! the one that closes most slowly: a block that slides over the seam of two level ones is not stopped by the side of the
+//! second.
 
 use super::{
     ContactId, Feature,
@@ -72,13 +76,25 @@ impl Corners<'_> {
         // Of equal faces the first body's, so that rounding does not decide.
         let second = separation_b > separation_a + self.near.tolerance;
         let (reference, face) = if second { (1, face_b) } else { (0, face_a) };
-        let ends = self.ends(reference, face);
-        approaches.extend(ends.into_iter().filter_map(|(owner, end)| self.approach(owner, &end)));
-        if approaches.is_empty() && separation > 0.0 {
+        let [low, high] = self.span(reference, face);
+        if high - low > self.near.tolerance {
+            let ends = self.ends(reference, face);
+            approaches.extend(ends.into_iter().filter_map(|(owner, end)| self.approach(owner, &end)));
+        }
+        if approaches.is_empty() && separation > -self.near.tolerance {
             let met = self.first_met().map(|(owner, face)| (owner, self.end(owner, face, self.closest(owner, face))));
             approaches.extend(met.map(|(owner, end)| self.between(owner, &end)));
         }
         Meeting { approaches, separation }
+    }
+
+    /// What the face shares with the other body's most opposed one, along it, metres: the end is not above the beginning
+    /// where they share a corner or nothing.
+    fn span(&self, reference: usize, face: usize) -> [f64; 2] {
+        let other = self.near.outlines[1 - reference];
+        let opposed = most_opposed(other, self.near.outlines[reference].normals[face]);
+        let [low, high] = [other.next(opposed), opposed].map(|corner| self.end(reference, face, corner));
+        [low.along.max(0.0), high.along.min(high.length)]
     }
 
     /// Both ends of the shared span, each with the body (0 or 1) that owns the face.
@@ -166,38 +182,33 @@ impl Corners<'_> {
         Vector::new(b[0] - a[0], b[1] - a[1])
     }
 
-    /// The face (of body 0 or 1) at which the second body, moved in a straight line, first meets the first: separating
-    /// axes over the time of the step. None if they do not meet.
+    /// The face (of body 0 or 1) at which the second body, moved in a straight line, first meets the first: that of their
+    /// Minkowski difference which is entered last, or one on which they touch already. None if they do not meet.
     fn first_met(&self) -> Option<(usize, usize)> {
         let drift = self.drift();
         let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-        let mut met: Option<(f64, usize, usize)> = None;
+        let (mut last, mut touching) = (None, None::<(f64, (usize, usize))>);
         for (owner, face) in [0, 1].into_iter().flat_map(|owner| self.faces(owner).map(move |face| (owner, face))) {
-            let normal = self.near.outlines[owner].normals[face];
-            let span = |k: usize| {
-                let origin = if k == 0 { Vector::ZERO } else { self.offset };
-                let along = self.near.outlines[k].vertices.iter().map(|v| normal.dot(*v + origin));
-                along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [x.min(low), x.max(high)])
-            };
-            let ([own_low, own_high], [low, high]) = (span(owner), span(1 - owner));
+            let end = self.end(owner, face, self.closest(owner, face));
             // How fast the other body moves outwards, seen from the face's owner.
-            let speed = if owner == 0 { normal.dot(drift) } else { -normal.dot(drift) };
-            let outside = low >= own_high;
-            if speed == 0.0 {
-                if outside || high <= own_low {
-                    return None;
+            let speed = if owner == 0 { end.normal.dot(drift) } else { -end.normal.dot(drift) };
+            if end.gap > -self.near.tolerance && speed >= 0.0 {
+                return None;
+            }
+            if end.gap > 0.0 {
+                let time = end.gap / -speed;
+                if last.is_none() || time > enter {
+                    last = Some((owner, face));
                 }
-                continue;
+                enter = enter.max(time);
+            } else if speed > 0.0 {
+                leave = leave.min(-end.gap / speed);
             }
-            let times = [(own_high - low) / speed, (own_low - high) / speed];
-            let first = times[0].min(times[1]);
-            leave = leave.min(times[0].max(times[1]));
-            if outside && met.is_none_or(|(latest, ..)| first > latest) {
-                met = Some((first, owner, face));
+            if end.gap.abs() <= self.near.tolerance && touching.is_none_or(|(slowest, _)| speed > slowest) {
+                touching = Some((speed, (owner, face)));
             }
-            enter = enter.max(first);
         }
-        met.filter(|_| enter < leave).map(|(_, owner, face)| (owner, face))
+        touching.map(|(_, met)| met).or(last).filter(|_| enter < leave)
     }
 
     fn faces(&self, owner: usize) -> std::ops::Range<usize> {

@@ -172,10 +172,10 @@ impl Pieces<'_> {
         let (mut last, mut touching) = (None, None::<(f64, Separation)>);
         for plane in planes(self.pieces[0], self.pieces[1], self.offset) {
             let speed = plane.normal.dot(drift);
+            if plane.distance > -self.near.tolerance && speed >= 0.0 {
+                return None;
+            }
             if plane.distance > 0.0 {
-                if speed >= 0.0 {
-                    return None;
-                }
                 let time = plane.distance / -speed;
                 if last.is_none() || time > enter {
                     last = Some(plane);
@@ -184,7 +184,7 @@ impl Pieces<'_> {
             } else if speed > 0.0 {
                 leave = leave.min(-plane.distance / speed);
             }
-            let touches = plane.distance.abs() <= self.near.tolerance && speed <= 0.0;
+            let touches = plane.distance.abs() <= self.near.tolerance;
             if touches && touching.is_none_or(|(slowest, _)| speed > slowest) {
                 touching = Some((speed, plane));
             }

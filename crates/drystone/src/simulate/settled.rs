@@ -16,7 +16,8 @@ use std::time::{Duration, Instant};
 pub(super) struct Settled<S: Moving> {
     /// Velocities without contacts.
     free: Vec<S::Velocity>,
-    /// Of the approaches.
+    /// Of the approaches. Another finder counts its revisions anew, so that approaches are compared one by one after a snapshot.
+    #[serde(skip, default = "of_another_finder")]
     revision: u64,
     /// Rows that bear.
     bearing: usize,
@@ -24,11 +25,8 @@ pub(super) struct Settled<S: Moving> {
     friction_error: f64,
 }
 
-impl<S: Moving> Settled<S> {
-    /// The same for a finder that counts its revisions anew, so that approaches are compared one by one.
-    pub fn of_another_finder(self) -> Self {
-        Self { revision: u64::MAX, ..self }
-    }
+fn of_another_finder() -> u64 {
+    u64::MAX
 }
 
 impl<S: Moving> World<S> {

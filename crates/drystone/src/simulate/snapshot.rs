@@ -131,7 +131,7 @@ impl<S: Moving> World<S> {
             return Err(fault("its parts do not fit together"));
         }
         world.stood = saved.stood;
-        world.settled = saved.settled.map(Settled::of_another_finder);
+        world.settled = saved.settled;
         world.sliding = saved.sliding;
         world.impulses = saved.impulses;
         world.carried = saved.carried;
