@@ -207,9 +207,10 @@ pub(crate) fn certified_collapse(solver: &ConeSolver, rows: &BlockRows, loads: &
 impl StabilityTest for Reuse {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         if !self.at_current
-            && let Some(&current) = self.path.last()
+            && let Some(current) = self.path.last_mut()
         {
-            self.solver.roll_back(current);
+            self.solver.roll_back(*current);
+            *current = self.solver.mark(); // what had to be computed is remembered next time
         }
         self.at_current = false;
         let before = self.solver.counts().pivots;

@@ -331,12 +331,22 @@ impl BasisFactor {
         self.readers.resize(n, Vec::new());
         self.writers.resize(n, Vec::new());
         self.group.resize(n, 0);
-        self.undo.clear();
+        self.forget();
     }
 
     /// Number of replacements made, to come back to with [`Self::undo_to`].
     pub fn mark(&self) -> usize {
         self.undo.len()
+    }
+
+    /// Nobody takes replacements back from here.
+    pub fn forget(&mut self) {
+        self.undo.clear();
+    }
+
+    /// Replaced columns that are still kept.
+    pub fn left_behind(&self) -> usize {
+        self.stages.len() - self.stage.len()
     }
 
     /// Takes back replacements, the last first.

@@ -11,7 +11,10 @@ mod checking;
 mod growing;
 mod keeping;
 mod leaving;
+mod marks;
 mod phase_one;
+
+pub use marks::Mark;
 
 use super::{basis_factor::BasisFactor, columns::Columns, pricing::Pricing, sparse_vector::SparseVector};
 use crate::{counts::Counts, error::LcpError};
@@ -64,19 +67,6 @@ enum Change {
     },
 }
 
-/// A point to return to with [`ConeSolver::roll_back`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Mark {
-    changes: usize,
-    factor: usize,
-    /// Times the factor had been rebuilt: positions differ from one to the next.
-    rebuilds: usize,
-    behind: bool,
-    feasible: bool,
-    /// Times rows and columns had come to the problem or gone from it.
-    shape: usize,
-}
-
 /// Decides `h in cone(G)` on growing and shrinking sets of rows. A column takes part once all its rows are present.
 #[derive(Debug, Clone)]
 pub struct ConeSolver {
@@ -127,10 +117,13 @@ pub struct ConeSolver {
     /// What to take back at a mark, and whether there ever was one.
     changes: Vec<Change>,
     marked: bool,
-    /// Values overwritten since the last mark, to restore it exactly.
+    /// Times all marks ended.
+    era: usize,
+    /// Values overwritten since the first mark whose values come back from memory, whether there is one, and how often
+    /// they were lost.
     overwritten: Vec<(u32, f64)>,
-    last_mark: Option<Mark>,
-    shape: usize,
+    remembers: bool,
+    values: usize,
     residual: f64,
     counts: Counts,
     /// The last pivots showed that digits were lost.
@@ -170,8 +163,7 @@ const GROWTH: f64 = 1e6;
 /// Entries of the factor for each row that are never too many, and how many times more than after it was built last are.
 const ENTRIES: usize = 32;
 const FILL: usize = 3;
-/// Replacements for each row of the complete problem after which the factor is built again, if nobody wants to go back:
-/// each of them leaves something behind.
+/// Replaced columns for each row of the complete problem that the factor may keep before it is built again.
 const REPLACEMENTS: usize = 16;
 /// The infeasibility must fall by this share to count as progress.
 const PROGRESS: f64 = 1e-12;
@@ -224,9 +216,10 @@ impl ConeSolver {
             lazy: false,
             changes: Vec::new(),
             marked: false,
+            era: 0,
             overwritten: Vec::new(),
-            last_mark: None,
-            shape: 0,
+            remembers: false,
+            values: 0,
             residual: 0.0,
             counts: Counts::default(),
             shaky: false,
@@ -275,6 +268,16 @@ impl ConeSolver {
             .collect();
         rows.sort_unstable_by_key(|entry| entry.0);
         rows
+    }
+
+    /// After [`Membership::Outside`]: the multiplier of a row, until the next answer.
+    pub fn multiplier(&self, row: usize) -> f64 {
+        self.y.get(row as u32) * self.row_scale[row]
+    }
+
+    /// After [`Membership::Outside`]: `y' h`, until the next answer.
+    pub fn certificate_power(&self) -> f64 {
+        self.y.iter().map(|(row, value)| value * self.h[row as usize]).sum()
     }
 
     /// Adds rows, out of balance by `h` until the next solve. Rows already present stay as they are.

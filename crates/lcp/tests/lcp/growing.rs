@@ -129,7 +129,7 @@ fn rows_that_are_present_stay() {
 }
 
 #[test]
-#[should_panic(expected = "a mark of another problem")]
+#[should_panic(expected = "a mark that has ended")]
 fn marks_end_when_the_problem_changes() {
     let mut grown = solver(&Growing { columns: vec![vec![(0, 1.0)]], h: vec![1.0] });
     let mark = grown.mark();

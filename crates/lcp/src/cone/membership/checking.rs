@@ -11,6 +11,7 @@ impl ConeSolver {
     /// whose force changed since the last check are looked at; the others' worst stands. While values are behind, only
     /// the rows that came are.
     pub(super) fn imbalance(&mut self) -> f64 {
+        self.new_rows.retain(|&row| self.present[row as usize]); // some may have gone again
         if self.behind {
             let largest = self.new_rows.iter().fold(0.0, |worst, &row| larger(worst, self.balance[row as usize].abs()));
             self.new_rows.clear();
@@ -23,7 +24,11 @@ impl ConeSolver {
         }
         self.carried += 1;
         let mut worst = self.worst;
-        let mut look_at = |row: u32| worst = larger(worst, self.balance[row as usize].abs());
+        let mut look_at = |row: u32| {
+            if self.present[row as usize] {
+                worst = larger(worst, self.balance[row as usize].abs());
+            }
+        };
         if 3 * self.changed.len() > self.rows.len() {
             self.rows.iter().for_each(|&row| look_at(row));
         } else {
@@ -103,7 +108,7 @@ impl ConeSolver {
     /// the infeasibility that is left by another route: if they differ, the values are worn.
     pub(super) fn certifies(&self) -> bool {
         let size = self.y.largest();
-        let power: f64 = self.y.iter().map(|(row, value)| value * self.h[row as usize]).sum();
+        let power = self.certificate_power();
         let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
         let rises = |&(j, _): &(u32, f64)| {
             let rate: f64 = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row)).sum();

@@ -65,8 +65,6 @@ impl ConeSolver {
         self.changed.retain(|&j| (j as usize) < n);
         self.new_rows.retain(|&row| (row as usize) < m);
         self.direction.clear();
-        self.changes.clear();
-        self.overwritten.clear();
-        (self.last_mark, self.shape) = (None, self.shape + 1);
+        self.forget();
     }
 }

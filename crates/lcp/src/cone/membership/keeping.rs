@@ -1,6 +1,6 @@
-//! What is kept: marks to return to, and the factor built again when its digits are worn.
+//! What is kept: the factor, built again when it is worn, and the values.
 
-use super::{Basic, Change, ConeSolver, ENTRIES, FILL, Mark, PIVOT, REPLACEMENTS, infeasible};
+use super::{Basic, Change, ConeSolver, ENTRIES, FILL, PIVOT, REPLACEMENTS, infeasible};
 
 /// What is basic, wherever it stands: generators, and the unit columns of rows.
 #[derive(Debug, Clone, Default)]
@@ -11,14 +11,14 @@ pub(super) struct BasisSet {
 }
 
 impl BasisSet {
-    fn put(&mut self, row: u32, basic: Basic) {
+    pub fn put(&mut self, row: u32, basic: Basic) {
         match basic {
             Basic::Unit => self.units[row as usize] = true,
             Basic::Column(j) => self.columns.push(j),
         }
     }
 
-    fn take(&mut self, row: u32, basic: Basic) {
+    pub fn take(&mut self, row: u32, basic: Basic) {
         match basic {
             Basic::Unit => self.units[row as usize] = false,
             Basic::Column(j) => self.columns.retain(|&other| other != j),
@@ -27,85 +27,6 @@ impl BasisSet {
 }
 
 impl ConeSolver {
-    /// The state as it is, to come back to with [`Self::roll_back`]. Marks are taken back last first.
-    pub fn mark(&mut self) -> Mark {
-        let mark = Mark {
-            changes: self.changes.len(),
-            factor: self.factor.mark(),
-            rebuilds: self.counts.refactorisations,
-            behind: self.behind,
-            feasible: self.suspects.is_empty(),
-            shape: self.shape,
-        };
-        self.overwritten.clear();
-        self.marked = true;
-        self.last_mark = Some(mark);
-        mark
-    }
-
-    /// Returns to a mark. To the latest one, the values come back bit for bit; to an earlier one they are computed
-    /// again from its basis.
-    ///
-    /// # Panics
-    /// If rows or columns came to the problem or went from it since.
-    pub fn roll_back(&mut self, mark: Mark) {
-        assert_eq!(mark.shape, self.shape, "a mark of another problem");
-        let same_positions = mark.rebuilds == self.counts.refactorisations;
-        let exact = self.last_mark == Some(mark);
-        let mut gone = Vec::new();
-        let mut basis = if same_positions { BasisSet::default() } else { self.basis_set() };
-        while self.changes.len() > mark.changes
-            && let Some(change) = self.changes.pop()
-        {
-            match change {
-                Change::Pivot { position, entered, left } if same_positions => {
-                    if let Basic::Column(j) = entered {
-                        self.take_out(j);
-                    }
-                    self.put(position, left);
-                }
-                Change::Pivot { position, entered, left } => {
-                    basis.take(position, entered);
-                    basis.put(position, left);
-                }
-                Change::Gone { row, group } => {
-                    let member = self.rows.iter().copied().find(|&other| self.factor.group(other) == group);
-                    self.join_group(row, group, member);
-                    self.bring_row(row);
-                }
-                Change::Bears(j) => self.bears[j as usize] = false,
-                Change::Doubted(j) => self.bears[j as usize] = true,
-                Change::Row(row) => {
-                    self.take_row(row);
-                    gone.push(row);
-                }
-            }
-        }
-        if same_positions {
-            self.factor.undo_to(mark.factor);
-        }
-        if exact {
-            self.suspects.clear();
-            while let Some((position, value)) = self.overwritten.pop() {
-                self.set_value(position, value);
-            }
-            self.behind |= mark.behind;
-            if !mark.feasible {
-                self.suspects.clone_from(&self.rows);
-            }
-        } else {
-            if !same_positions {
-                self.rebuild(&basis);
-            }
-            self.suspects.clear();
-            self.recompute_values();
-        }
-        gone.retain(|&row| !self.present[row as usize]); // some had been there before
-        self.forget_values(&gone);
-        self.overwritten.clear();
-        self.last_mark = exact.then_some(mark);
-    }
-
     /// The basis as a set.
     pub(super) fn basis_set(&self) -> BasisSet {
         let units = (0..self.basic.len() as u32).map(|p| self.column_in(p).is_none()).collect();
@@ -120,13 +41,6 @@ impl ConeSolver {
         }
     }
 
-    /// Notes a change, if there is a mark to go back to.
-    pub(super) fn note(&mut self, change: Change) {
-        if self.marked {
-            self.changes.push(change);
-        }
-    }
-
     /// A column is not known to bear any more.
     pub(super) fn doubt(&mut self, j: u32) {
         if std::mem::take(&mut self.bears[j as usize]) {
@@ -137,7 +51,7 @@ impl ConeSolver {
     /// Builds the factor again if a pivot showed lost digits, or if it has filled up. None if that fails.
     pub(super) fn rebuild_if_worn(&mut self) -> Option<()> {
         let full = self.factor.stored() > self.most_entries.max(ENTRIES * self.rows.len());
-        let stale = !self.marked && self.factor.mark() > REPLACEMENTS * self.basic.len();
+        let stale = self.factor.left_behind() > REPLACEMENTS * self.basic.len();
         if std::mem::take(&mut self.shaky) || full || stale {
             if !self.rebuild(&self.basis_set()) {
                 return None;
@@ -153,7 +67,7 @@ impl ConeSolver {
     /// to be found out anew. False if the factor refuses a column.
     pub(super) fn rebuild(&mut self, basis: &BasisSet) -> bool {
         self.counts.refactorisations += 1;
-        self.last_mark = None;
+        self.lose_values();
         self.mixed = true;
         self.factor.reset();
         self.suspects.clear();
@@ -179,12 +93,6 @@ impl ConeSolver {
         }
         self.most_entries = FILL * self.factor.stored();
         true
-    }
-
-    pub(super) fn remember(&mut self, p: u32) {
-        if self.last_mark.is_some() {
-            self.overwritten.push((p, self.x[p as usize]));
-        }
     }
 
     /// `x = B^-1 h` on the present rows.

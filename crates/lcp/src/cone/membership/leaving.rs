@@ -7,7 +7,7 @@ impl ConeSolver {
     /// Rows that are not present stay so.
     pub fn remove_rows(&mut self, rows: &[usize]) {
         self.catch_up();
-        self.last_mark = None; // values come back by computation, not from memory
+        self.lose_values();
         let rows: Vec<u32> = rows.iter().map(|&row| row as u32).filter(|&row| self.present[row as usize]).collect();
         for &row in &rows {
             self.note(Change::Gone { row, group: self.factor.group(row) });

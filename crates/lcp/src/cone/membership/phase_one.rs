@@ -154,7 +154,7 @@ impl ConeSolver {
     }
 
     pub(super) fn step(&mut self, step: f64) {
-        if self.last_mark.is_some() {
+        if self.remembers {
             self.overwritten.extend(self.direction.iter().map(|&(p, _)| (p, self.x[p as usize])));
         }
         for k in 0..self.direction.len() {
