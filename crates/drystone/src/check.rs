@@ -97,7 +97,12 @@ pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
 fn equilibrium_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<(Membership, ConeSolver)> {
     let mut equilibrium = assembly.equilibrium();
     let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
-    put_up(&mut equilibrium, &assembly.equilibrium_rows(), upward, go_on).then(|| (equilibrium.solve(), equilibrium))
+    let mut placed = 0;
+    let before = |_: &mut ConeSolver, _| {
+        placed += 1;
+        go_on(placed - 1)
+    };
+    put_up(&mut equilibrium, &assembly.equilibrium_rows(), upward, before).then(|| (equilibrium.solve(), equilibrium))
 }
 
 fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {

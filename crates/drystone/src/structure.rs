@@ -1,35 +1,38 @@
 //! A structure that is put up and taken down block by block, in any order; each question about it is answered from the
 //! last one.
 
+mod fall;
+mod history;
+
 use crate::{
     check::{self, Verdict},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet},
-    plan::{Nogood, Touching, certified_collapse},
     scene::SceneOf,
 };
 use drystone_lcp::{
     Counts, Status,
     cone::{ConeSolver, Membership},
 };
-use std::sync::OnceLock;
+use fall::Fall;
+use history::History;
 
 /// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, even
 /// where what is there falls in between, as half an arch does: many blocks at once that nothing holds yet tie in nearly
-/// every pivot, and take many times more of them. Stops, with false, as soon as `go_on` says so, which is told how many
-/// are in.
+/// every pivot, and take many times more of them. `before` is told each block before it comes; stops, with false, as soon as
+/// that says so.
 pub(crate) fn put_up(
     solver: &mut ConeSolver,
     rows: &BlockRows,
     blocks: impl IntoIterator<Item = usize>,
-    mut go_on: impl FnMut(usize) -> bool,
+    mut before: impl FnMut(&mut ConeSolver, usize) -> bool,
 ) -> bool {
     for (placed, block) in blocks.into_iter().enumerate() {
-        if !go_on(placed) {
-            return false;
-        }
         if placed > 0 {
             solver.decide();
+        }
+        if !before(solver, block) {
+            return false;
         }
         solver.add_rows(rows.of(block));
     }
@@ -39,9 +42,10 @@ pub(crate) fn put_up(
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
 ///
 /// Kept between questions: the contacts of the complete scene, the basis of the generators that hold the structure up,
-/// and its factor. A verdict costs what the change reaches; see [`ConeSolver::decide`]. And how the structure fell last: as long
-/// as the blocks that came and went leave that collapse as it was (Lemma 1, `plan/collapse.rs`), it still falls, and the
-/// solver is not asked.
+/// and its factor. A verdict costs what the change reaches; see [`ConeSolver::decide`]. Blocks that are taken off in the order
+/// opposite to that in which they came leave the state that was there before them. And as long as the blocks that came and
+/// went leave the last collapse as it was (Lemma 1, `plan/collapse.rs`), the structure still falls, and the solver is not
+/// asked.
 ///
 /// ```
 /// use drystone::{Structure, scenes};
@@ -60,17 +64,14 @@ pub struct Structure {
     blocks: BlockSet,
     solver: ConeSolver,
     rows: BlockRows,
-    /// Applied wrenches, row by row.
-    loads: Vec<f64>,
     /// Place of each block in the order from the supports upward.
     height: Vec<usize>,
     /// Blocks put up, and taken away, since the solver was last told.
     new: Vec<usize>,
     gone: Vec<usize>,
-    /// Found when something falls.
-    touching: OnceLock<Touching>,
-    /// How the structure fell when the solver was last asked.
-    fell: Option<Nogood>,
+    history: History,
+    /// It fell when the solver was last asked.
+    fell: bool,
 }
 
 impl Structure {
@@ -89,15 +90,14 @@ impl Structure {
         let (blocks, solver) = (BlockSet::empty(assembly.blocks()), assembly.equilibrium());
         Self {
             rows: assembly.equilibrium_rows(),
-            loads: (0..assembly.blocks()).flat_map(|block| assembly.applied(block)).copied().collect(),
-            touching: OnceLock::new(),
             assembly,
             blocks,
             solver,
             height,
             new: Vec::new(),
             gone: Vec::new(),
-            fell: None,
+            history: History::default(),
+            fell: false,
         }
     }
 
@@ -135,30 +135,29 @@ impl Structure {
 
     /// Tells the solver what has come and gone: the new blocks from the supports upward.
     fn put_up(&mut self) {
-        let gone = std::mem::take(&mut self.gone);
-        gone.iter().for_each(|&block| self.solver.remove_rows(self.rows.of(block)));
+        let Self { solver, rows, history, .. } = self;
+        let mut gone = std::mem::take(&mut self.gone);
+        if !gone.is_empty() {
+            history.go_back(&mut gone, &self.blocks, solver);
+            gone.iter().for_each(|&block| solver.remove_rows(rows.of(block)));
+        }
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
-        put_up(&mut self.solver, &self.rows, new, |_| true);
-    }
-
-    /// Remembers how it falls, if it does.
-    fn learn(&mut self, found: Membership) {
-        self.fell = (found == Membership::Outside).then(|| {
-            let collapse = certified_collapse(&self.solver, &self.rows, &self.loads);
-            let touching = self.touching.get_or_init(|| Touching::new(&self.assembly));
-            Nogood::of_collapse(&collapse, &self.blocks, touching)
+        put_up(solver, rows, new, |solver, block| {
+            history.push(block, solver);
+            true
         });
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.
     pub fn stands(&mut self) -> Option<bool> {
-        if self.fell.as_ref().is_some_and(|fell| fell.covers(&self.blocks)) {
+        let fall = Fall { solver: &self.solver, rows: &self.rows, assembly: &self.assembly };
+        if self.fell && fall.carries_over(&self.new, &self.gone) {
             return Some(false);
         }
         self.put_up();
         let found = self.solver.decide();
-        self.learn(found);
+        self.fell = found == Membership::Outside;
         match found {
             Membership::Inside => Some(true),
             Membership::Outside => Some(false),
@@ -171,7 +170,7 @@ impl Structure {
         let before = self.solver.counts();
         self.put_up();
         let found = self.solver.solve();
-        self.learn(found);
+        self.fell = found == Membership::Outside;
         let spent = self.solver.counts() - before;
         if found != Membership::Inside {
             return check::solve_complementarity(&self.assembly, &self.blocks, spent);

@@ -51,6 +51,59 @@ fn every_verdict_is_that_of_a_fresh_check() {
     }
 }
 
+/// Blocks go mostly in the order opposite to that in which they came, as in a search; forces are asked for now and then.
+#[test]
+fn going_back_leaves_what_was_there() {
+    let mut random = Pcg64::seed_from_u64(5);
+    for scene in scenes_that_fall() {
+        let assembly = Assembly::new(&scene).unwrap();
+        let (mut structure, upward) = (Structure::of(assembly.clone()), assembly.upward());
+        let (mut came, mut verdicts): (Vec<usize>, _) = (Vec::new(), [0, 0]);
+        for _ in 0..400 {
+            let missing: Vec<usize> = upward.iter().copied().filter(|block| !came.contains(block)).collect();
+            if !missing.is_empty() {
+                came.push(missing[random.random_range(0..missing.len().min(4))]);
+                structure.add(came[came.len() - 1]);
+            }
+            let stands = structure.stands().unwrap();
+            let fresh = check_blocks(&assembly, structure.blocks());
+            assert_eq!(stands, fresh.stable);
+            verdicts[usize::from(stands)] += 1;
+            let back = if !stands && random.random_range(0..8) > 0 { 1 } else { 0 };
+            let further = if random.random_range(0..4) == 0 { random.random_range(1..=3) } else { 0 };
+            for _ in 0..(back + further).min(came.len()) {
+                let out_of_order = random.random_range(0..10) == 0;
+                let at = if out_of_order { random.random_range(0..came.len()) } else { came.len() - 1 };
+                structure.remove(came.remove(at));
+            }
+            if random.random_range(0..6) == 0 {
+                let (verdict, fresh) = (structure.check(), check_blocks(&assembly, structure.blocks()));
+                assert_eq!((verdict.stable, &verdict.falling), (fresh.stable, &fresh.falling));
+            }
+        }
+        assert!(verdicts.iter().all(|&count| count > 20), "{verdicts:?}");
+    }
+}
+
+/// What was taken off in the order opposite to that in which it came was not solved for: a second time up and down costs
+/// no more pivots than the way up.
+#[test]
+fn the_way_down_takes_no_pivots() {
+    let assembly = Assembly::new(&scenes::pyramid(8, 0.5).unwrap()).unwrap();
+    let mut structure = Structure::of(assembly.clone());
+    for block in assembly.upward() {
+        structure.add(block);
+        assert_eq!(structure.stands(), Some(true));
+    }
+    let up = structure.counts().pivots;
+    for block in assembly.upward().into_iter().rev() {
+        structure.remove(block);
+        assert_eq!(structure.stands(), Some(true));
+    }
+    assert_eq!(structure.counts().pivots, up);
+    assert_eq!(structure.entries(), 3 * assembly.blocks());
+}
+
 /// An arch without its keystone falls, and so does what is left of it from there on: the solver is asked a few times only.
 #[test]
 fn what_goes_on_falling_is_not_solved_again() {

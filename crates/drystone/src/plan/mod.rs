@@ -34,12 +34,9 @@ pub use collapse::Collapse;
 pub use forces::{StructureForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
-pub(crate) use nogood::Nogood;
 pub use outcome::{
     ClearPath, Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord,
 };
 pub use planning::{plan, plan_assembly, plan_assembly_under, plan_under, plan_with, plan_with_under};
 pub use replay::{Recorder, Replay, Step, replay};
-pub(crate) use stability::certified_collapse;
 pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};
-pub(crate) use touching::Touching;
