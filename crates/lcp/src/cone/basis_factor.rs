@@ -9,16 +9,26 @@
 //! next *stage*, a number that it keeps for good, and takes its row along: `U` is upper triangular in the order of the
 //! stages, and its entries join stages. What a replaced column was stays behind under its old stage, to be put back.
 
-use super::{due::Due, sparse_vector::SparseVector};
+mod solving;
+mod undoing;
+
+use super::{due::Due, lists::Lists, sparse_vector::SparseVector};
 use std::ops::Range;
 
 type Entries = Vec<(u32, f64)>;
 
-/// Row operation `x[target] -= sum of factor * x[row]`.
-#[derive(Debug, Clone)]
+/// Row operation `x[target] -= sum of factor * x[row]`, and where its terms (row, factor) are.
+#[derive(Debug, Clone, Copy)]
 struct RowOperation {
     target: u32,
-    terms: Entries,
+    start: u32,
+    end: u32,
+}
+
+impl RowOperation {
+    fn range(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
 }
 
 /// One replacement: the stage that the position had before, and whether it needed a row operation.
@@ -58,12 +68,14 @@ pub(super) struct BasisFactor {
     /// Entries of the columns of `U` above the diagonal: (stage, value).
     above: Entries,
     /// Row of `U` right of its diagonal, by stage: (stage, value).
-    rows: Vec<Entries>,
+    rows: Lists<(u32, f64)>,
     operations: Vec<RowOperation>,
+    /// Terms of all operations, one after the other.
+    terms: Entries,
     /// Operations that read a row, ascending.
-    readers: Vec<Vec<u32>>,
+    readers: Lists<u32>,
     /// Operations that write a row, ascending.
-    writers: Vec<Vec<u32>>,
+    writers: Lists<u32>,
     undo: Vec<Undo>,
     /// Rows that came together have one number, later ones a larger one.
     group: Vec<u32>,
@@ -71,6 +83,8 @@ pub(super) struct BasisFactor {
     stored: usize,
     /// Numbers read by triangular solves.
     read: usize,
+    /// Numbers read in row operations.
+    read_below: usize,
     due: Due,
     /// By stage; zero between solves.
     work: Vec<f64>,
@@ -83,6 +97,8 @@ pub(super) enum Reach {
     All,
     /// To the rows of its own group only.
     Group,
+    /// To none.
+    Nowhere,
 }
 
 /// What a replacement says about its accuracy.
@@ -99,75 +115,25 @@ const SINGULAR: f64 = 1e-11;
 
 impl BasisFactor {
     pub fn identity(n: usize) -> Self {
+        // Room for a column in every position.
+        let mut stages = Vec::with_capacity(2 * n);
+        stages.extend((0..n as u32).map(Stage::unit));
         Self {
-            stages: (0..n as u32).map(Stage::unit).collect(),
+            stages,
             stage: (0..n as u32).collect(),
-            above: Vec::new(),
-            rows: vec![Vec::new(); n],
+            above: Vec::with_capacity(4 * n),
+            rows: Lists::empty(n),
             operations: Vec::new(),
-            readers: vec![Vec::new(); n],
-            writers: vec![Vec::new(); n],
+            terms: Vec::new(),
+            readers: Lists::empty(n),
+            writers: Lists::empty(n),
             undo: Vec::new(),
             group: vec![0; n],
             stored: 0,
             read: 0,
+            read_below: 0,
             due: Due::default(),
             work: vec![0.0; n],
-        }
-    }
-
-    /// `L^-1 a` in place: the spike of a column.
-    pub fn apply_operations(&mut self, x: &mut SparseVector) {
-        let Self { operations, readers, due, .. } = self;
-        due.reset(operations.len());
-        x.index().iter().for_each(|&i| due.insert_all(&readers[i as usize]));
-        let mut due = due.upward();
-        while let Some(id) = due.take() {
-            let operation = &operations[id as usize];
-            let sum: f64 = operation.terms.iter().map(|&(row, factor)| factor * x.get(row)).sum();
-            if sum != 0.0 {
-                if x.list(operation.target) {
-                    due.insert_after(id, &readers[operation.target as usize]);
-                }
-                x.add(operation.target, -sum);
-            }
-        }
-    }
-
-    /// `U^-1 spike` as (position, value), the later stages first; nothing that is zero.
-    pub fn solve_upper(&mut self, spike: &SparseVector, solution: &mut Vec<(u32, f64)>) {
-        solution.clear();
-        self.walk_upper(spike, |position, value| {
-            solution.push((position, value));
-            Reach::All
-        });
-    }
-
-    /// `U^-1 spike`, the later stages first: `visit` sees each (position, value) that is not zero and says how far
-    /// the value is passed on. What it keeps back is missing from the values that follow.
-    pub fn walk_upper(&mut self, spike: &SparseVector, mut visit: impl FnMut(u32, f64) -> Reach) {
-        self.seed(spike);
-        let Self { stages, above, due, work, group, read, .. } = self;
-        let mut due = due.downward();
-        while let Some(s) = due.take() {
-            let stage = &stages[s as usize];
-            let value = std::mem::take(&mut work[s as usize]) * stage.reciprocal;
-            if value == 0.0 {
-                continue;
-            }
-            *read += 1 + stage.len as usize;
-            let mut pass_on = |i: u32, u: f64| {
-                work[i as usize] -= u * value;
-                due.insert(i);
-            };
-            match visit(stage.position, value) {
-                Reach::All => above[stage.range()].iter().for_each(|&(i, u)| pass_on(i, u)),
-                Reach::Group => {
-                    let of = |stage: &Stage| group[stage.position as usize];
-                    let inside = |&&(i, _): &&(u32, f64)| of(&stages[i as usize]) == of(stage);
-                    above[stage.range()].iter().filter(inside).for_each(|&(i, u)| pass_on(i, u));
-                }
-            }
         }
     }
 
@@ -181,95 +147,42 @@ impl BasisFactor {
         self.group[row as usize]
     }
 
-    /// The entry of `B^-1 a` at a position that no later column of `U` reaches, straight from the spike.
-    pub fn first_solved(&self, position: u32, spike: &SparseVector) -> Option<f64> {
-        let s = self.stage[position as usize] as usize;
-        self.rows[s].is_empty().then(|| spike.get(position) * self.stages[s].reciprocal)
-    }
-
-    /// `B^-T c` in place.
-    pub fn solve_transposed(&mut self, y: &mut SparseVector) {
-        self.seed(y);
-        y.clear();
-        self.solve_rows(|position, value| y.set(position, value));
-        let Self { operations, writers, due, .. } = self;
-        due.reset(operations.len());
-        y.index().iter().for_each(|&i| due.insert_all(&writers[i as usize]));
-        let mut due = due.downward();
-        while let Some(id) = due.take() {
-            let operation = &operations[id as usize];
-            let value = y.get(operation.target);
-            if value != 0.0 {
-                for &(row, factor) in &operation.terms {
-                    if y.list(row) {
-                        due.insert_before(id, &writers[row as usize]);
-                    }
-                    y.add(row, -factor * value);
-                }
-            }
-        }
-    }
-
-    /// Takes a right-hand side, by position, into the work vector.
-    fn seed(&mut self, x: &SparseVector) {
-        self.due.reset(self.stages.len());
-        for (i, value) in x.iter() {
-            let stage = self.stage[i as usize];
-            self.work[stage as usize] = value;
-            self.due.insert(stage);
-        }
-    }
-
-    /// `U^-T` of the work vector: the values that are not zero, by position, the earlier stages first.
-    fn solve_rows(&mut self, mut found: impl FnMut(u32, f64)) {
-        let Self { stages, rows, due, work, read, .. } = self;
-        let mut due = due.upward();
-        while let Some(s) = due.take() {
-            let stage = &stages[s as usize];
-            let value = std::mem::take(&mut work[s as usize]) * stage.reciprocal;
-            if value != 0.0 {
-                found(stage.position, value);
-                *read += 1 + rows[s as usize].len();
-                for &(right, u) in &rows[s as usize] {
-                    work[right as usize] -= u * value;
-                    due.insert(right);
-                }
-            }
-        }
-    }
-
     /// Replaces the column at a position by the one with this spike.
     ///
     /// None (and no change) if the basis would become singular.
     pub fn replace(&mut self, position: u32, spike: &SparseVector) -> Option<Replacement> {
         let p = position as usize;
         let old = self.stage[p];
-        let terms = self.eliminate_row(old);
+        let first = self.terms.len();
+        self.eliminate_row(old);
+        let terms = &self.terms[first..];
         let diagonal = spike.get(position) - terms.iter().map(|&(q, r)| r * spike.get(q)).sum::<f64>();
         if diagonal.is_nan() || diagonal.abs() <= SINGULAR {
+            self.terms.truncate(first);
             return None;
         }
-        self.unlink(old);
         let rate = diagonal * self.stages[old as usize].reciprocal;
         let growth = terms.iter().fold(0.0_f64, |growth, (_, factor)| growth.max(factor.abs()));
         self.undo.push(Undo { position, stage: old, operation: !terms.is_empty() });
         if !terms.is_empty() {
             let id = self.operations.len() as u32;
             self.stored += terms.len();
-            terms.iter().for_each(|&(row, _)| self.readers[row as usize].push(id));
-            self.writers[p].push(id);
-            self.operations.push(RowOperation { target: position, terms });
+            terms.iter().for_each(|&(row, _)| self.readers.push(row, id));
+            self.writers.push(position, id);
+            let (start, end) = (first as u32, self.terms.len() as u32);
+            self.operations.push(RowOperation { target: position, start, end });
         }
+        self.unlink(old);
         let (new, start) = (self.stages.len() as u32, self.above.len());
         for (i, value) in spike.iter().filter(|&(i, value)| i != position && value != 0.0) {
             let stage = self.stage[i as usize];
             self.above.push((stage, value));
-            self.rows[stage as usize].push((new, value));
+            self.rows.push(stage, (new, value));
         }
         let len = (self.above.len() - start) as u32;
         self.stored += len as usize;
         self.stages.push(Stage { position, start: start as u32, len, reciprocal: diagonal.recip() });
-        self.rows.push(Vec::new());
+        self.rows.push_list();
         self.work.push(0.0);
         self.stage[p] = new;
         Some(Replacement { rate, growth })
@@ -279,8 +192,8 @@ impl BasisFactor {
     fn unlink(&mut self, stage: u32) {
         self.stored -= self.entries_of(stage);
         let Self { stages, above, rows, .. } = self;
-        above[stages[stage as usize].range()].iter().for_each(|&(i, _)| drop_entry(&mut rows[i as usize], stage));
-        for &(q, _) in &rows[stage as usize] {
+        above[stages[stage as usize].range()].iter().for_each(|&(i, _)| drop_entry(rows, i, stage));
+        for &(q, _) in rows.of(stage) {
             let column = &mut stages[q as usize];
             let entries = &mut above[column.range()];
             if let Some(place) = entries.iter().position(|&(i, _)| i == stage) {
@@ -292,96 +205,36 @@ impl BasisFactor {
 
     /// Numbers in the column and in the row of a stage.
     fn entries_of(&self, stage: u32) -> usize {
-        self.stages[stage as usize].len as usize + self.rows[stage as usize].len()
+        self.stages[stage as usize].len as usize + self.rows.len_of(stage)
     }
 
-    /// Undoes [`Self::unlink`].
-    fn link(&mut self, stage: u32) {
-        self.stored += self.entries_of(stage);
-        let Self { stages, above, rows, .. } = self;
-        above[stages[stage as usize].range()].iter().for_each(|&(i, value)| rows[i as usize].push((stage, value)));
-        for &(q, value) in &rows[stage as usize] {
-            let column = &mut stages[q as usize];
-            column.len += 1;
-            above[column.range().end - 1] = (stage, value);
-        }
-    }
-
-    /// The combination r of other rows of `U` with `row - sum r_q row q = 0` right of the diagonal; rows by position.
-    fn eliminate_row(&mut self, stage: u32) -> Entries {
+    /// Puts behind the terms of the operations the combination r of other rows of `U` with `row - sum r_q row q = 0` right of
+    /// the diagonal; rows by position.
+    fn eliminate_row(&mut self, stage: u32) {
         self.due.reset(self.stages.len());
-        for &(q, value) in &self.rows[stage as usize] {
+        for &(q, value) in self.rows.of(stage) {
             self.work[q as usize] = value;
             self.due.insert(q);
         }
-        let mut terms = Vec::new();
+        let mut terms = std::mem::take(&mut self.terms);
         self.solve_rows(|position, factor| terms.push((position, factor)));
-        terms
-    }
-
-    /// Changes the number of rows; nothing before can be undone. New rows have their unit columns, and so must those that go.
-    pub fn resize(&mut self, n: usize) {
-        for position in self.stage.len()..n {
-            self.stage.push(self.stages.len() as u32);
-            self.stages.push(Stage::unit(position as u32));
-            self.rows.push(Vec::new());
-            self.work.push(0.0);
-        }
-        self.stage.truncate(n); // the stages stay behind, as those of replaced columns do
-        self.readers.resize(n, Vec::new());
-        self.writers.resize(n, Vec::new());
-        self.group.resize(n, 0);
-        self.forget();
-    }
-
-    /// Number of replacements made, to come back to with [`Self::undo_to`].
-    pub fn mark(&self) -> usize {
-        self.undo.len()
-    }
-
-    /// Nobody takes replacements back from here.
-    pub fn forget(&mut self) {
-        self.undo.clear();
-    }
-
-    /// Replaced columns that are still kept.
-    pub fn left_behind(&self) -> usize {
-        self.stages.len() - self.stage.len()
-    }
-
-    /// Takes back replacements, the last first.
-    pub fn undo_to(&mut self, mark: usize) {
-        while self.undo.len() > mark
-            && let Some(Undo { position, stage, operation }) = self.undo.pop()
-        {
-            let p = position as usize;
-            if operation && let Some(last) = self.operations.pop() {
-                self.stored -= last.terms.len();
-                for (row, _) in last.terms {
-                    self.readers[row as usize].pop();
-                }
-                self.writers[p].pop();
-            }
-            let new = self.stage[p];
-            self.unlink(new);
-            self.above.truncate(self.stages[new as usize].start as usize);
-            self.stages.pop();
-            self.rows.pop();
-            self.work.pop();
-            self.link(stage);
-            self.stage[p] = stage;
-        }
+        self.terms = terms;
     }
 
     /// Back to the identity; nothing before can be undone.
     pub fn reset(&mut self) {
-        let (group, read) = (std::mem::take(&mut self.group), self.read);
-        *self = Self { group, read, ..Self::identity(self.stage.len()) };
+        let (group, read, read_below) = (std::mem::take(&mut self.group), self.read, self.read_below);
+        *self = Self { group, read, read_below, ..Self::identity(self.stage.len()) };
     }
 
     /// Numbers read by triangular solves since the factor was made.
     pub fn read(&self) -> usize {
         self.read
+    }
+
+    /// Numbers read in all since the factor was made.
+    pub fn effort(&self) -> usize {
+        self.read + self.read_below
     }
 
     /// Stored numbers without the diagonal of `U`.
@@ -395,9 +248,9 @@ impl BasisFactor {
     }
 }
 
-/// Removes the entry with this index.
-fn drop_entry(entries: &mut Entries, index: u32) {
-    if let Some(place) = entries.iter().position(|&(i, _)| i == index) {
-        entries.swap_remove(place);
+/// Removes a row's entry with this index.
+fn drop_entry(rows: &mut Lists<(u32, f64)>, row: u32, index: u32) {
+    if let Some(place) = rows.of(row).iter().position(|&(i, _)| i == index) {
+        rows.swap_remove(row, place);
     }
 }

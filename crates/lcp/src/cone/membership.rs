@@ -13,6 +13,7 @@ mod keeping;
 mod leaving;
 mod marks;
 mod phase_one;
+mod wear;
 
 pub use marks::Mark;
 

@@ -12,6 +12,7 @@
 mod basis_factor;
 mod columns;
 mod due;
+mod lists;
 mod membership;
 mod pricing;
 mod sparse_vector;

@@ -71,9 +71,11 @@ impl ConeSolver {
         bearing.map(|j| self.carried_row(j)).filter(move |&carried| self.factor.group(carried) != group)
     }
 
-    fn rows_of_group(&self, first: u32) -> Vec<u32> {
-        let rest = std::iter::successors(Some(first), |&row| Some(self.next_in_group[row as usize]));
-        std::iter::once(first).chain(rest.skip(1).take_while(|&row| row != first)).collect()
+    /// The rows of a group, from one of them on.
+    fn rows_of_group(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
+        std::iter::successors(Some(first), move |&row| {
+            Some(self.next_in_group[row as usize]).filter(|&next| next != first)
+        })
     }
 
     /// Brings the values up to date where loads have not been passed on.
@@ -138,14 +140,18 @@ impl ConeSolver {
         self.mixed = true;
         let mut doubtful = vec![row];
         while let Some(first) = doubtful.pop() {
-            let group = self.factor.group(first);
-            for row in self.rows_of_group(first) {
+            let (group, mut row) = (self.factor.group(first), first);
+            loop {
                 for e in 0..self.g.columns_of(row).len() {
                     let (j, _) = self.g.columns_of(row)[e];
                     if self.bears[j as usize] && self.column_group(j) != group {
                         self.doubt(j);
                         doubtful.push(self.carried_row(j));
                     }
+                }
+                row = self.next_in_group[row as usize];
+                if row == first {
+                    break;
                 }
             }
         }
@@ -182,8 +188,7 @@ impl ConeSolver {
 
     /// Takes a row out of its group's ring.
     pub(super) fn leave_group(&mut self, row: u32) {
-        let rows = self.rows_of_group(row);
-        let before = rows[rows.len() - 1];
+        let before = self.rows_of_group(row).last().expect("the row itself");
         self.next_in_group.swap(before as usize, row as usize);
     }
 }

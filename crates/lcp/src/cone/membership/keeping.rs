@@ -1,6 +1,6 @@
-//! What is kept: the factor, built again when it is worn, and the values.
+//! What is kept: the basis, whose factor can be built again, and the values.
 
-use super::{Basic, Change, ConeSolver, ENTRIES, FILL, PIVOT, REPLACEMENTS, infeasible};
+use super::{Basic, Change, ConeSolver, FILL, PIVOT, SAFE_PIVOT, infeasible};
 
 /// What is basic, wherever it stands: generators, and the unit columns of rows.
 #[derive(Debug, Clone, Default)]
@@ -48,20 +48,6 @@ impl ConeSolver {
         }
     }
 
-    /// Builds the factor again if a pivot showed lost digits, or if it has filled up. None if that fails.
-    pub(super) fn rebuild_if_worn(&mut self) -> Option<()> {
-        let full = self.factor.stored() > self.most_entries.max(ENTRIES * self.rows.len());
-        let stale = self.factor.left_behind() > REPLACEMENTS * self.basic.len();
-        if std::mem::take(&mut self.shaky) || full || stale {
-            if !self.rebuild(&self.basis_set()) {
-                return None;
-            }
-            self.recompute_values();
-            self.shaky = false;
-        }
-        Some(())
-    }
-
     /// Builds the factor again from a basis. The columns go in group by group, the oldest first, which keeps the factor
     /// sparse: the columns of a group press on older ones. One that depends on those before it stays out. What bears has
     /// to be found out anew. False if the factor refuses a column.
@@ -78,14 +64,16 @@ impl ConeSolver {
             }
         }
         let mut columns = basis.columns.clone();
-        columns.sort_unstable_by_key(|&j| (self.column_group(j), j));
+        columns.sort_by_cached_key(|&j| (self.column_group(j), j));
         (0..self.bears.len() as u32).for_each(|j| self.doubt(j));
+        let (mut group, mut first) = (0, 0);
         for j in columns {
+            if self.column_group(j) != group {
+                (group, first) = (self.column_group(j), self.factor.stages());
+            }
             self.column_spike(j);
-            self.direction_from_spike();
-            let free = |&&(p, _): &&(u32, f64)| !basis.units[p as usize] && self.basic[p as usize] == Basic::Unit;
-            let best = self.direction.iter().filter(free).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-            let Some(&(p, _)) = best.filter(|best| best.1.abs() > PIVOT) else { continue };
+            let place = self.place_in_group(group, first, basis).or_else(|| self.place_anywhere(basis));
+            let Some(p) = place else { continue };
             if self.factor.replace(p, &self.spike).is_none() {
                 return false;
             }
@@ -93,6 +81,26 @@ impl ConeSolver {
         }
         self.most_entries = FILL * self.factor.stored();
         true
+    }
+
+    /// A place in the rows of its own group for a column whose spike is there, if there is a good one. No older column has an
+    /// entry there: only the columns of the group, which are those from stage `first` on, are walked through.
+    fn place_in_group(&mut self, group: u32, first: usize, basis: &BasisSet) -> Option<u32> {
+        self.factor.solve_newest(first, &self.spike, &mut self.direction);
+        self.direction.retain(|&(p, _)| self.factor.group(p) == group);
+        self.largest_free(basis).filter(|best| best.1.abs() > SAFE_PIVOT).map(|best| best.0)
+    }
+
+    /// A place wherever such a column has an entry.
+    fn place_anywhere(&mut self, basis: &BasisSet) -> Option<u32> {
+        self.direction_from_spike();
+        self.largest_free(basis).filter(|best| best.1.abs() > PIVOT).map(|best| best.0)
+    }
+
+    /// The largest entry of the direction in a row that has no column yet and is to have one.
+    fn largest_free(&self, basis: &BasisSet) -> Option<(u32, f64)> {
+        let free = |&&(p, _): &&(u32, f64)| !basis.units[p as usize] && self.basic[p as usize] == Basic::Unit;
+        self.direction.iter().filter(free).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).copied()
     }
 
     /// `x = B^-1 h` on the present rows.

@@ -12,7 +12,6 @@ pub struct Mark {
     overwritten: usize,
     /// Which list of overwritten values that is.
     values: usize,
-    pivots: usize,
     behind: bool,
     feasible: bool,
     /// Which list of changes.
@@ -37,7 +36,6 @@ impl ConeSolver {
             rebuilds: self.counts.refactorisations,
             overwritten: self.overwritten.len(),
             values: self.values,
-            pivots: self.counts.pivots,
             behind: self.behind,
             feasible: self.suspects.is_empty(),
             era: self.era,
@@ -50,9 +48,10 @@ impl ConeSolver {
         mark.era == self.era && mark.values == self.values
     }
 
-    /// Pivots made since a mark.
+    /// Pivots between a mark and the state as it is, without those that were taken back.
     pub fn pivots_since(&self, mark: Mark) -> usize {
-        self.counts.pivots - mark.pivots
+        let pivots = |change: &&Change| matches!(change, Change::Pivot { .. });
+        self.changes[mark.changes..].iter().filter(pivots).count()
     }
 
     /// Returns to a mark: bit for bit if it is [remembered](Self::remembers); else the values are computed again from its

@@ -10,8 +10,9 @@ impl ConeSolver {
     /// Drives the infeasibility down until it is gone or cannot fall. None if a pivot was refused.
     pub(super) fn phase_one(&mut self, limit: usize) -> Option<Membership> {
         let (mut stalled, mut best) = (0, f64::INFINITY);
+        let mut wear = self.fresh_wear();
         loop {
-            self.rebuild_if_worn()?;
+            self.rebuild_if_worn(&mut wear)?;
             let x = &self.x;
             let basic = &self.basic;
             self.suspects.retain(|&p| infeasible(basic[p as usize], x[p as usize]) != 0.0);
@@ -54,8 +55,8 @@ impl ConeSolver {
     /// `y = B^-T c` with c the rate at which the infeasibility grows with each basic value.
     pub(super) fn multipliers(&mut self) {
         self.y.clear();
-        self.suspects.sort_unstable();
-        self.suspects.dedup();
+        let y = &mut self.y;
+        self.suspects.retain(|&p| y.list(p)); // once each
         for &p in &self.suspects {
             self.y.set(p, infeasible(self.basic[p as usize], self.x[p as usize]));
         }
