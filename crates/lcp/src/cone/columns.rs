@@ -28,23 +28,27 @@ impl Columns {
         if let Some(row) = indices.iter().find(|&&row| row >= rows) {
             return structure(format!("row index {row} in a matrix with {rows} rows"));
         }
-        let mut latest = vec![usize::MAX; rows];
-        for column in 0..indptr.len() - 1 {
-            for p in indptr[column]..indptr[column + 1] {
-                let (row, value) = (indices[p], data[p]);
-                if !value.is_finite() {
-                    return Err(LcpError::MatrixNotFinite { row, column, value });
-                }
-                if std::mem::replace(&mut latest[row], column) == column {
-                    return structure(format!("entry [{row}, {column}] is given twice"));
-                }
+        let column = |j: usize| indptr[j]..indptr[j + 1];
+        let mut ascending = true;
+        for j in 0..indptr.len() - 1 {
+            let (rows, values) = (&indices[column(j)], &data[column(j)]);
+            if let Some(place) = values.iter().position(|value| !value.is_finite()) {
+                return Err(LcpError::MatrixNotFinite { row: rows[place], column: j, value: values[place] });
             }
+            ascending &= rows.windows(2).all(|pair| pair[0] < pair[1]);
         }
         let entries = indices.iter().zip(data).map(|(&row, &value)| (row as u32, value)).collect();
         let (row_starts, row_columns) = (Vec::new(), Vec::new());
         let mut columns = Self { rows, starts: indptr.to_vec(), entries, row_starts, row_columns };
         columns.index_rows();
-        columns.order_entries();
+        if !ascending {
+            columns.order_entries();
+            for j in 0..columns.len() {
+                if let Some(pair) = columns.column(j as u32).windows(2).find(|pair| pair[0].0 == pair[1].0) {
+                    return structure(format!("entry [{}, {j}] is given twice", pair[0].0));
+                }
+            }
+        }
         Ok(columns)
     }
 
@@ -132,7 +136,12 @@ impl Columns {
             column.iter_mut().for_each(|(_, value)| *value *= scale);
             column_scale.push(scale);
         }
-        self.index_rows();
+        for (row, &row_scale) in row_scale.iter().enumerate() {
+            for (column, value) in &mut self.row_columns[self.row_starts[row]..self.row_starts[row + 1]] {
+                *value *= row_scale;
+                *value *= column_scale[*column as usize];
+            }
+        }
         column_scale
     }
 }

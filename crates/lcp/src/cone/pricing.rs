@@ -14,6 +14,10 @@ pub(super) struct Pricing {
 /// Rates within this share of the best count as equal, so that rounding does not decide between symmetric columns.
 const EQUAL: f64 = 1e-9;
 
+/// Where more than the so manieth part of all rows have multipliers, all columns are looked at one after the other: nearly
+/// every one touches such a row.
+const DENSE: usize = 8;
+
 impl Pricing {
     pub fn new(columns: usize) -> Self {
         Self { seen: vec![false; columns], touched: Vec::new(), preferred: 0..0 }
@@ -39,6 +43,24 @@ impl Pricing {
         floor: f64,
         least_index: bool,
     ) -> Option<u32> {
+        let rate = |j: u32| -> f64 { g.column(j).iter().map(|&(row, value)| value * y.get(row)).sum() };
+        let mut best = Best { floor, least_index, found: None };
+        let preferred = if least_index { 0..0 } else { self.preferred.clone() };
+        if DENSE * y.index().len() > g.rows() {
+            let others = (0..preferred.start).chain(preferred.end..g.len() as u32);
+            best.of_all(preferred.filter(|&j| allowed(j)), rate);
+            best.of_all_if_none(others.filter(|&j| allowed(j)), rate);
+        } else {
+            self.touch(g, y, allowed);
+            best.of_all(self.touched.iter().copied().filter(|j| preferred.contains(j)), rate);
+            best.of_all_if_none(self.touched.iter().copied().filter(|j| !preferred.contains(j)), rate);
+            self.touched.clear();
+        }
+        best.found.map(|(j, _)| j)
+    }
+
+    /// Lists the allowed columns in the rows that have a multiplier.
+    fn touch(&mut self, g: &Columns, y: &SparseVector, allowed: impl Fn(u32) -> bool) {
         for (row, value) in y.iter() {
             if value != 0.0 {
                 for &(j, _) in g.columns_of(row) {
@@ -48,22 +70,35 @@ impl Pricing {
                 }
             }
         }
-        let mut best: Option<(u32, f64)> = None;
-        let preferred = |j: u32| !least_index && self.preferred.contains(&j);
-        for &j in &self.touched {
-            self.seen[j as usize] = false;
-            let rate: f64 = g.column(j).iter().map(|&(row, value)| value * y.get(row)).sum();
-            let better = best.is_none_or(|(k, top)| match (preferred(j), preferred(k)) {
-                (true, false) => true,
-                (false, true) => false,
-                _ if least_index || (rate - top).abs() <= EQUAL * top => j < k,
-                _ => rate > top,
-            });
-            if rate > floor && better {
-                best = Some((j, rate));
+        self.touched.iter().for_each(|&j| self.seen[j as usize] = false);
+    }
+}
+
+/// The best column so far, with its rate.
+struct Best {
+    floor: f64,
+    least_index: bool,
+    found: Option<(u32, f64)>,
+}
+
+impl Best {
+    fn of_all(&mut self, columns: impl Iterator<Item = u32>, rate: impl Fn(u32) -> f64) {
+        for j in columns {
+            let rate = rate(j);
+            let better =
+                self.found.is_none_or(|(k, top)| match self.least_index || (rate - top).abs() <= EQUAL * top {
+                    true => j < k,
+                    false => rate > top,
+                });
+            if rate > self.floor && better {
+                self.found = Some((j, rate));
             }
         }
-        self.touched.clear();
-        best.map(|(j, _)| j)
+    }
+
+    fn of_all_if_none(&mut self, columns: impl Iterator<Item = u32>, rate: impl Fn(u32) -> f64) {
+        if self.found.is_none() {
+            self.of_all(columns, rate);
+        }
     }
 }
