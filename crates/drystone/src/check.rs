@@ -159,14 +159,18 @@ pub(crate) fn verdict(
     counts: Counts,
     residual: f64,
 ) -> Verdict {
-    let accelerations = assembly.accelerations(blocks, &f);
-    let falling: Vec<usize> =
-        moving_blocks(assembly, blocks, &f).map(|(block, _)| assembly.body_index(block)).collect();
+    // Each is asked for by both blocks and by the contact.
+    let magnitudes: Vec<f64> = (0..assembly.generators().len()).map(f).collect();
+    let f = |generator: usize| magnitudes[generator];
+    let accelerations: Vec<(usize, Components)> =
+        blocks.iter().map(|block| (block, assembly.acceleration(block, f))).collect();
+    let falls = accelerations.iter().filter(|(block, acceleration)| !at_rest(assembly, *block, acceleration));
+    let falling: Vec<usize> = falls.map(|&(block, _)| assembly.body_index(block)).collect();
     Verdict {
         status,
         stable: status == Status::Solved && falling.is_empty(),
         checked: blocks.iter().map(|block| assembly.body_index(block)).collect(),
-        accelerations,
+        accelerations: accelerations.into_iter().map(|(block, value)| assembly.in_world(block, value)).collect(),
         falling,
         forces: assembly
             .contact_forces(&assembly.rows(blocks), f)

@@ -326,11 +326,12 @@ impl Assembly {
     /// Accelerations `M^-1 (F + G f)` of the blocks of a sub-assembly, in the order of the set. `f(j)` is the magnitude of
     /// generator j, N, zero outside the sub-assembly.
     pub fn accelerations(&self, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> Vec<Acceleration> {
-        let of = |block: usize| {
-            let [x, y, z, turning @ ..] = self.acceleration(block, &f);
-            Acceleration { linear: [x, y, z], angular: self.body(block).in_world(turning) }
-        };
-        blocks.iter().map(of).collect()
+        blocks.iter().map(|block| self.in_world(block, self.acceleration(block, &f))).collect()
+    }
+
+    /// What [`Self::acceleration`] gives for a block, in world axes.
+    pub(crate) fn in_world(&self, block: usize, [x, y, z, turning @ ..]: Components) -> Acceleration {
+        Acceleration { linear: [x, y, z], angular: self.body(block).in_world(turning) }
     }
 
     /// Acceleration of one movable block, turning about its principal axes; see [`Self::accelerations`].
@@ -339,6 +340,9 @@ impl Assembly {
         self.components.iter().zip(self.applied(block)).for_each(|(&k, load)| wrench[k] = *load);
         for &j in &self.generators_on[block] {
             let magnitude = f(j);
+            if magnitude == 0.0 {
+                continue; // most are
+            }
             for part in self.generators[j].wrenches.iter().filter(|part| part.block == block) {
                 self.components.iter().for_each(|&k| wrench[k] += magnitude * part.value[k]);
             }
@@ -349,7 +353,7 @@ impl Assembly {
 
     /// The force at every contact point that has a generator among `rows` (ascending).
     pub fn contact_forces(&self, rows: &[usize], f: impl Fn(usize) -> f64) -> Vec<ContactForce> {
-        let mut forces: Vec<ContactForce> = Vec::new();
+        let mut forces: Vec<ContactForce> = Vec::with_capacity(rows.len());
         for &j in rows {
             let Generator { contact, direction, .. } = self.generators[j];
             if forces.last().is_none_or(|last| last.contact != contact) {
