@@ -53,6 +53,21 @@ def test_work_of_adding_in_order(scene: str, friction: float) -> None:
     assert work == PIVOTS[scene, friction]
 
 
+# The way up, and no pivot on the way down, which is the opposite order.
+PIVOTS_OF_REMOVING = {"col80": 2 * 79, "pyr13": 2 * 91}
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.5])
+@pytest.mark.parametrize("scene", PIVOTS_OF_REMOVING)
+def test_work_of_removing_in_order(scene: str, friction: float) -> None:
+    built = Row(scene, friction).build()
+    assembly = Assembly.of(built)
+    workload = WORKLOADS["remove"](built, assembly, ds.plan(built))
+    run = PEERS["reuse"].run(built, assembly, workload, 60.0)
+    assert all(answer.stands for answer in run.answers)
+    assert run.iterations == PIVOTS_OF_REMOVING[scene]
+
+
 @pytest.mark.parametrize("workload", WORKLOADS)
 @pytest.mark.parametrize("friction", [0.0, 0.7])
 def test_live_programs_agree_with_the_reference(workload: str, friction: float) -> None:

@@ -3,6 +3,7 @@
 
 mod fall;
 mod history;
+mod putting_up;
 
 use crate::{
     check::{self, Verdict},
@@ -16,28 +17,8 @@ use drystone_lcp::{
 };
 use fall::Fall;
 use history::History;
-
-/// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, even
-/// where what is there falls in between, as half an arch does: many blocks at once that nothing holds yet tie in nearly
-/// every pivot, and take many times more of them. `before` is told each block before it comes; stops, with false, as soon as
-/// that says so.
-pub(crate) fn put_up(
-    solver: &mut ConeSolver,
-    rows: &BlockRows,
-    blocks: impl IntoIterator<Item = usize>,
-    mut before: impl FnMut(&mut ConeSolver, usize) -> bool,
-) -> bool {
-    for (placed, block) in blocks.into_iter().enumerate() {
-        if placed > 0 {
-            solver.decide();
-        }
-        if !before(solver, block) {
-            return false;
-        }
-        solver.add_rows(rows.of(block));
-    }
-    true
-}
+use putting_up::PuttingUp;
+pub(crate) use putting_up::put_up;
 
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
 ///
@@ -135,7 +116,7 @@ impl Structure {
 
     /// Tells the solver what has come and gone: the new blocks from the supports upward.
     fn put_up(&mut self) {
-        let Self { solver, rows, history, .. } = self;
+        let Self { assembly, rows, solver, history, .. } = self;
         let mut gone = std::mem::take(&mut self.gone);
         if !gone.is_empty() {
             history.go_back(&mut gone, &self.blocks, solver);
@@ -143,10 +124,7 @@ impl Structure {
         }
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
-        put_up(solver, rows, new, |solver, block| {
-            history.push(block, solver);
-            true
-        });
+        PuttingUp { assembly, rows, solver, history }.put_up(new, &self.blocks);
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.

@@ -15,6 +15,7 @@ use rand_pcg::Pcg64;
 struct Kept {
     mark: Mark,
     blocks: Vec<usize>,
+    forces: Vec<f64>,
 }
 
 struct Walk<'a> {
@@ -24,13 +25,15 @@ struct Walk<'a> {
     kept: Vec<Kept>,
     /// Answers that it falls and that it stands.
     seen: [usize; 2],
+    /// States whose values were to come back from memory.
+    remembered: usize,
 }
 
 impl<'a> Walk<'a> {
     fn new(assembly: &'a Assembly) -> Self {
         let mut solver = assembly.equilibrium();
-        let kept = vec![Kept { mark: solver.mark(), blocks: Vec::new() }];
-        Self { assembly, solver, blocks: Vec::new(), kept, seen: [0; 2] }
+        let kept = vec![Kept { mark: solver.mark(), blocks: Vec::new(), forces: forces(&solver) }];
+        Self { assembly, solver, blocks: Vec::new(), kept, seen: [0; 2], remembered: 0 }
     }
 
     fn step(&mut self, random: &mut Pcg64) {
@@ -73,15 +76,20 @@ impl<'a> Walk<'a> {
 
     fn keep(&mut self) {
         let mark = self.solver.mark();
-        self.kept.push(Kept { mark, blocks: self.blocks.clone() });
+        self.kept.push(Kept { mark, blocks: self.blocks.clone(), forces: forces(&self.solver) });
     }
 
-    /// To the last mark or to one before it; later ones are void.
+    /// To the last mark or to one before it; later ones are void. What is remembered comes back bit for bit.
     fn roll_back(&mut self, random: &mut Pcg64) {
         let back = random.random_range(0..self.kept.len().min(3));
         self.kept.truncate(self.kept.len() - back);
         if let Some(last) = self.kept.last() {
+            let remembers = self.solver.remembers(last.mark);
             self.solver.roll_back(last.mark);
+            if remembers {
+                assert_eq!(forces(&self.solver), last.forces);
+                self.remembered += 1;
+            }
             self.blocks.clone_from(&last.blocks);
         }
         self.ask(random.random_range(0..2) == 0);
@@ -119,6 +127,11 @@ impl<'a> Walk<'a> {
     }
 }
 
+/// Every force as it is at the moment, up to date or not.
+fn forces(solver: &ConeSolver) -> Vec<f64> {
+    (0..solver.columns()).map(|j| solver.f(j)).collect()
+}
+
 fn scenes() -> Vec<Scene> {
     let mut scenes = vec![
         column(12, 0.0).unwrap(),
@@ -141,7 +154,7 @@ fn scenes() -> Vec<Scene> {
 
 #[test]
 fn every_answer_of_a_walk_is_that_of_a_fresh_solver() {
-    let mut seen = [0; 2];
+    let (mut seen, mut remembered) = ([0; 2], 0);
     for (seed, scene) in (0..3).flat_map(|seed| scenes().into_iter().map(move |scene| (seed, scene))) {
         let mut random = Pcg64::seed_from_u64(seed);
         let assembly = Assembly::new(&scene).unwrap();
@@ -150,8 +163,10 @@ fn every_answer_of_a_walk_is_that_of_a_fresh_solver() {
             walk.step(&mut random);
         }
         (seen[0], seen[1]) = (seen[0] + walk.seen[0], seen[1] + walk.seen[1]);
+        remembered += walk.remembered;
     }
     assert!(seen.iter().all(|&count| count > 500), "falling and standing: {seen:?}");
+    assert!(remembered > 300, "{remembered}");
 }
 
 /// Putting a block on what stands firm costs the same however high the structure is (the bearing lemma); asking for all forces

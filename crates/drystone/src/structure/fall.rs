@@ -4,6 +4,7 @@
 //! differs from the one that fell by blocks that came and touch none that moves, and by blocks that went and leave work to be
 //! done. The motion stays in the solver: only the blocks that came and went are looked at.
 
+use super::putting_up::neighbours;
 use crate::formulate::{Assembly, BlockRows};
 use drystone_lcp::cone::ConeSolver;
 
@@ -31,9 +32,7 @@ impl Fall<'_> {
 
     fn touches_what_moves(&self, block: usize) -> bool {
         let moves = |other: usize| self.rows.of(other).iter().any(|&row| self.solver.multiplier(row) != 0.0);
-        let on = self.assembly.generators_on(block).iter();
-        on.flat_map(|&j| &self.assembly.generators()[j].wrenches)
-            .any(|wrench| wrench.block != block && moves(wrench.block))
+        neighbours(self.assembly, block).flatten().any(moves)
     }
 
     /// The work that a block's load does: `y' h` of its rows, with `h = -F`.

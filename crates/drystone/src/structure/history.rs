@@ -21,6 +21,13 @@ impl History {
         self.states.push((block, solver.mark()));
     }
 
+    /// Goes back to before the newest block.
+    pub fn undo(&mut self, solver: &mut ConeSolver) {
+        if let Some((_, state)) = self.states.pop() {
+            solver.roll_back(state);
+        }
+    }
+
     /// Goes back to before the newest blocks, as far as they are not in `present` any more, and says which these were. What
     /// remains of `gone` went in another order, and ends the history.
     pub fn go_back(&mut self, gone: &mut Vec<usize>, present: &BlockSet, solver: &mut ConeSolver) {
@@ -29,8 +36,9 @@ impl History {
             && (solver.remembers(state) || solver.pivots_since(state) >= PIVOTS_WORTH_A_FACTOR)
         {
             solver.roll_back(state);
-            let taken_off = self.states.split_off(stay);
-            gone.retain(|&block| !taken_off.iter().any(|&(other, _)| other == block));
+            let mut settled = present.clone();
+            self.states.drain(stay..).for_each(|(block, _)| settled.insert(block));
+            gone.retain(|&block| !settled.contains(block));
         }
         if !gone.is_empty() {
             self.states.clear();

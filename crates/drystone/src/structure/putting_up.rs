@@ -1,0 +1,101 @@
+//! Blocks come one by one, those that stand before those that fall.
+
+use super::history::History;
+use crate::formulate::{Assembly, BlockRows, BlockSet};
+use drystone_lcp::cone::{ConeSolver, Membership};
+
+/// Blocks put on what falls already until the solver is asked again: every answer costs a pass over all that falls, and
+/// more blocks at once, which nothing holds yet, tie in many pivots.
+const TOGETHER: usize = 4;
+
+/// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, or about
+/// every fourth where what is there falls in between, as half an arch does. `before` is told each block before it comes;
+/// stops, with false, as soon as that says so.
+pub(crate) fn put_up(
+    solver: &mut ConeSolver,
+    rows: &BlockRows,
+    blocks: impl IntoIterator<Item = usize>,
+    mut before: impl FnMut(&mut ConeSolver, usize) -> bool,
+) -> bool {
+    let (mut falls, mut new) = (false, 0);
+    for block in blocks {
+        if new == TOGETHER || new > 0 && !falls {
+            falls = solver.decide() == Membership::Outside;
+            new = 0;
+        }
+        if !before(solver, block) {
+            return false;
+        }
+        solver.add_rows(rows.of(block));
+        new += 1;
+    }
+    true
+}
+
+/// Blocks that fell one after the other until no more are tried: what is there may fall already.
+const PATIENCE: usize = 8;
+
+/// A solver on the way up.
+#[derive(Debug)]
+pub(super) struct PuttingUp<'a> {
+    pub assembly: &'a Assembly,
+    pub rows: &'a BlockRows,
+    pub solver: &'a mut ConeSolver,
+    pub history: &'a mut History,
+}
+
+impl PuttingUp<'_> {
+    /// Puts up all of these blocks; `with` holds them and what is there. The solver has not answered then.
+    pub fn put_up(mut self, blocks: Vec<usize>, with: &BlockSet) {
+        let rest = if blocks.len() > 1 { self.put_up_what_stands(blocks, with) } else { blocks };
+        let Self { rows, solver, history, .. } = self;
+        put_up(solver, rows, rest, |solver, block| {
+            history.push(block, solver);
+            true
+        });
+    }
+
+    /// As long as there is one among these blocks that stands on what is there, the first such one comes. The others are
+    /// handed back, at least one of them: the last block is not asked about.
+    fn put_up_what_stands(&mut self, mut waiting: Vec<usize>, with: &BlockSet) -> Vec<usize> {
+        let mut there = with.clone();
+        waiting.iter().for_each(|&block| there.remove(block));
+        let (mut place, mut fell) = (0, Vec::new());
+        while waiting.len() > 1
+            && fell.len() < PATIENCE
+            && let Some(&block) = waiting.get(place)
+        {
+            if fell.contains(&block) || !self.touches(block, &there) {
+                place += 1;
+            } else if self.stands_with(block) {
+                waiting.remove(place);
+                there.insert(block);
+                fell.clear(); // under this block or against it they may stand
+                place = 0;
+            } else {
+                self.history.undo(self.solver);
+                fell.push(block);
+            }
+        }
+        waiting
+    }
+
+    fn stands_with(&mut self, block: usize) -> bool {
+        self.history.push(block, self.solver);
+        self.solver.add_rows(self.rows.of(block));
+        self.solver.decide() == Membership::Inside
+    }
+
+    /// Whether a block touches a fixed body or one of these. One that touches neither falls freely.
+    fn touches(&self, block: usize, there: &BlockSet) -> bool {
+        neighbours(self.assembly, block).any(|other| other.is_none_or(|other| there.contains(other)))
+    }
+}
+
+/// For every generator of a block the other block, None for a fixed body.
+pub(super) fn neighbours(assembly: &Assembly, block: usize) -> impl Iterator<Item = Option<usize>> {
+    assembly.generators_on(block).iter().map(move |&j| {
+        let wrenches = &assembly.generators()[j].wrenches;
+        wrenches.iter().map(|wrench| wrench.block).find(|&other| other != block)
+    })
+}
