@@ -226,12 +226,6 @@ def test_an_overlap_names_both_bodies_and_the_depth() -> None:
         ds.check(scene)
 
 
-def test_what_is_not_there_in_space_says_so() -> None:
-    scene = ds.scenes.square_pyramid(2)
-    with pytest.raises(ds.SceneError, match="in space"):
-        ds.simulate(scene, steps=1)
-
-
 def test_everything_falls_freely_where_nothing_is_fixed() -> None:
     scene = ds.Scene(dimension=3, gravity=(1.1, -2.3, -9.7), friction=0.6)
     tilted = turned((0.6, 0.0, 0.8), 23.0)
