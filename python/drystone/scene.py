@@ -203,12 +203,16 @@ class Scene:
         *,
         hull: bool = False,
         max_pieces: int | None = None,
+        simplify: float | None = None,
     ) -> str:
         """Add a mesh as one rigid body of exact convex pieces and return its name.
 
         `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface in
         a frame that stands at `position`, turned by `orientation`. `scale` makes metres of its
-        lengths. `hull` takes its convex hull instead. What is mended is said in a MeshWarning.
+        lengths. `hull` takes its convex hull instead. `simplify` (metres) makes few pieces of a
+        scan of many triangles by moving its surface by no more than that; the body weighs what the
+        mesh does, its density being changed by as much as its volume was. What is mended or
+        simplified is said in a MeshWarning.
 
         Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls into more
         than `max_pieces` (256) convex pieces, and the errors of `add_solid`.
@@ -216,13 +220,15 @@ class Scene:
         from drystone import meshes
 
         most = meshes.MOST_PIECES if max_pieces is None else max_pieces
-        part = meshes.read_part(mesh, scale=scale, name=name, hull=hull, max_pieces=most)
+        part = meshes.read_part(
+            mesh, scale=scale, name=name, hull=hull, max_pieces=most, simplify=simplify
+        )
         for message in part.messages:
             warn(f"{part.name}: {message}", meshes.MeshWarning, stacklevel=2)
         return self.add_solid(
             part.pieces,
             name,
-            density,
+            density * part.density_factor,
             friction,
             fixed,
             position=position,

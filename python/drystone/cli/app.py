@@ -292,6 +292,10 @@ def import_(
     max_pieces: Annotated[
         int, typer.Option(min=1, help="At most so many convex pieces a body.")
     ] = 256,
+    simplify: Annotated[
+        float | None,
+        typer.Option(help="Metres that surfaces of scanned meshes may move, to make them simple."),
+    ] = None,
     as_json: AsJson = False,
 ) -> int:
     """Make a scene of another tool's assembly, and say what was taken and what was left out."""
@@ -310,6 +314,7 @@ def import_(
         ground=ground,
         tolerance=tolerance,
         max_pieces=max_pieces,
+        simplify=simplify,
     )
 
 

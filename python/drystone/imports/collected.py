@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -36,11 +36,13 @@ class ImportedBody:
     """kg/m^3."""
     friction: float | None
     fixed: bool
+    density_factor: float = 1.0
+    """What makes the pieces weigh as much as the mesh that they were simplified from."""
 
     @property
     def volume(self) -> float:
-        """Cubic metres."""
-        return sum(hull_volume(piece) for piece in self.pieces)
+        """Cubic metres, of the mesh if it was simplified."""
+        return self.density_factor * sum(hull_volume(piece) for piece in self.pieces)
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,10 +80,12 @@ class Collected:
         density: float | None = None,
         friction: float | None = None,
         fixed: bool = False,
+        density_factor: float = 1.0,
     ) -> None:
         """One rigid body; a name that is taken gets a number."""
         density = DENSITY if density is None else density
-        self.bodies.append(ImportedBody(self._free(name), pieces, density, friction, fixed))
+        body = ImportedBody(self._free(name), pieces, density, friction, fixed, density_factor)
+        self.bodies.append(body)
 
     def add_plane(self, name: str, pose: Pose, friction: float | None = None) -> None:
         """A half-space below the xy plane of `pose`: a fixed box as large as the bodies need."""
@@ -102,10 +106,7 @@ class Collected:
         if unknown:
             known = ", ".join(body.name for body in self.bodies[:20])
             raise FormatError(f"no body is called {min(unknown)!r}: there are {known}")
-        self.bodies = [
-            ImportedBody(b.name, b.pieces, b.density, b.friction, b.fixed or b.name in wanted)
-            for b in self.bodies
-        ]
+        self.bodies = [replace(b, fixed=b.fixed or b.name in wanted) for b in self.bodies]
 
     def measure(self) -> None:
         """Note the extent of the bodies so far."""
@@ -135,10 +136,7 @@ class Collected:
             x, y, z = (scale * rotation @ np.array(self.gravity)).tolist()
             self.gravity = (x, y, z)
         self.bodies = [
-            ImportedBody(
-                b.name, [scale * p @ rotation.T for p in b.pieces], b.density, b.friction, b.fixed
-            )
-            for b in self.bodies
+            replace(b, pieces=[scale * p @ rotation.T for p in b.pieces]) for b in self.bodies
         ]
 
     def _points(self) -> NDArray[np.float64]:

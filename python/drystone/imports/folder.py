@@ -23,25 +23,28 @@ MANIFEST = "manifest.json"
 FIELDS = {"name", "file", "position", "orientation", "scale", "density", "friction", "fixed"}
 
 
-def read(folder: Path, collected: Collected, max_pieces: int) -> None:
-    """Add the parts in a folder."""
+def read(
+    folder: Path, collected: Collected, max_pieces: int, simplify: float | None = None
+) -> None:
+    """Add the parts in a folder; `simplify` is in their unit of length."""
     if (folder / MANIFEST).exists():
-        read_manifest(folder / MANIFEST, collected, max_pieces)
+        read_manifest(folder / MANIFEST, collected, max_pieces, simplify)
         return
     files = sorted((p for p in folder.iterdir() if p.suffix.lower() in ENDINGS), key=_natural)
     if not files:
         raise FormatError(f"{folder}: no mesh files in it ({', '.join(ENDINGS)}) and no {MANIFEST}")
     poses = _asap_poses(folder)
     for file in files:
-        _add(
-            collected, read_part(file, max_pieces=max_pieces), poses.get(file.stem, Pose.identity())
-        )
+        part = read_part(file, max_pieces=max_pieces, simplify=simplify)
+        _add(collected, part, poses.get(file.stem, Pose.identity()))
     for name in sorted(poses.keys() - {file.stem for file in files}):
         collected.leave_out(f"part {name} of config.json", "there is no mesh of that name")
 
 
-def read_manifest(path: Path, collected: Collected, max_pieces: int) -> None:
-    """Add the parts that a manifest lists; their files are beside it."""
+def read_manifest(
+    path: Path, collected: Collected, max_pieces: int, simplify: float | None = None
+) -> None:
+    """Add the parts that a manifest lists; their files are beside it. `simplify` is in its unit."""
     manifest = entries(read_json(path), f"{path}: a manifest is an object with a list of parts")
     parts = manifest.get("parts")
     if not isinstance(parts, list) or not parts:
@@ -49,10 +52,17 @@ def read_manifest(path: Path, collected: Collected, max_pieces: int) -> None:
     for key in sorted(manifest.keys() - {"parts"}):
         collected.leave_out(f"{key!r} in {path.name}", "no field of a manifest")
     for number, part in enumerate(parts):
-        _add_listed(path, f"{path}: part {number}", part, collected, max_pieces)
+        _add_listed(path, f"{path}: part {number}", part, collected, max_pieces, simplify)
 
 
-def _add_listed(path: Path, what: str, part: Any, collected: Collected, max_pieces: int) -> None:
+def _add_listed(
+    path: Path,
+    what: str,
+    part: Any,
+    collected: Collected,
+    max_pieces: int,
+    simplify: float | None,
+) -> None:
     fields = entries(part, f"{what} must be an object with a file")
     unknown = sorted(fields.keys() - FIELDS)
     if unknown:
@@ -65,7 +75,9 @@ def _add_listed(path: Path, what: str, part: Any, collected: Collected, max_piec
     if not isinstance(fields.get("fixed", False), bool):
         raise FormatError(f"{what}: fixed must be true or false")
     scale = finite(fields.get("scale", 1.0), f"{what}: scale")
-    read = read_part(path.parent / file, name=name, scale=scale, max_pieces=max_pieces)
+    read = read_part(
+        path.parent / file, name=name, scale=scale, max_pieces=max_pieces, simplify=simplify
+    )
     position = numbers(fields.get("position", [0, 0, 0]), 3, f"{what}: position")
     turned = numbers(fields.get("orientation", [1, 0, 0, 0]), 4, f"{what}: orientation")
     if not any(turned):
@@ -81,7 +93,8 @@ def _add_listed(path: Path, what: str, part: Any, collected: Collected, max_piec
 
 def _add(collected: Collected, part: Part, pose: Pose, **options: Any) -> None:
     collected.say(part.name, part.messages)
-    collected.add(part.name, [pose.apply(piece) for piece in part.pieces], **options)
+    pieces = [pose.apply(piece) for piece in part.pieces]
+    collected.add(part.name, pieces, density_factor=part.density_factor, **options)
 
 
 def _asap_poses(folder: Path) -> dict[str, Pose]:

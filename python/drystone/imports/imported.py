@@ -69,6 +69,7 @@ def load(
     ground: bool = False,
     tolerance: float | None = None,
     max_pieces: int = MOST_PIECES,
+    simplify: float | None = None,
 ) -> Imported:
     """A COMPAS assembly, a folder of part meshes, a manifest, one mesh, MJCF or URDF as a scene.
 
@@ -77,7 +78,8 @@ def load(
     what the file says (1000 if it says nothing); `gravity` (m/s^2, z up) likewise. Bodies named in
     `fixed` never move; `ground` lays a fixed box under all. `tolerance` is the scene's
     `contact_tolerance`, in metres: how far apart bodies of an inexact file may be and still touch,
-    by default 1e-6 of the diagonal of all.
+    by default 1e-6 of the diagonal of all. `simplify` (metres) lets the surface of mesh files
+    move by so much, so that scans become few pieces: see `Scene.add_mesh`.
 
     Raises FormatError or MeshError, naming the file and the fix, SceneError for bodies that do not
     make a scene (two of them overlap), and OSError for a file that cannot be read.
@@ -89,7 +91,7 @@ def load(
         raise FormatError(f"scale must be a positive number, not {scale!r}")
     collected = Collected()
     try:
-        kind = _read(path, collected, max_pieces)
+        kind = _read(path, collected, max_pieces, None if simplify is None else simplify / scale)
     except (FormatError, MeshError) as error:
         if str(path) in str(error):
             raise
@@ -106,32 +108,39 @@ def load(
     return Imported(kind, scene, collected.bodies, collected.left_out, collected.messages)
 
 
-def _read(path: Path, collected: Collected, max_pieces: int) -> str:
-    """Fill `collected` and return the name of the format."""
+def _read(path: Path, collected: Collected, max_pieces: int, simplify: float | None) -> str:
+    """Fill `collected` and return the name of the format; `simplify` is in the file's unit."""
     if path.is_dir():
-        folder.read(path, collected, max_pieces)
+        folder.read(path, collected, max_pieces, simplify)
         return "folder of parts"
     ending = path.suffix.lower()
     if ending in ENDINGS:
-        part = read_part(path, max_pieces=max_pieces)
+        part = read_part(path, max_pieces=max_pieces, simplify=simplify)
         collected.say(part.name, part.messages)
-        collected.add(part.name, part.pieces)
+        collected.add(part.name, part.pieces, density_factor=part.density_factor)
         return "mesh"
     if ending == ".json":
-        return _read_json(path, collected, max_pieces)
+        return _read_json(path, collected, max_pieces, simplify)
     if ending in (".xml", ".mjcf", ".urdf"):
+        _refuse(simplify, "MJCF and URDF")
         return _read_xml(path, collected, max_pieces)
     known = ", ".join((".json", ".xml", ".urdf", *ENDINGS))
     raise FormatError(f"{path}: not known by its name: a folder, or one of {known}")
 
 
-def _read_json(path: Path, collected: Collected, max_pieces: int) -> str:
+def _refuse(simplify: float | None, formats: str) -> None:
+    if simplify is not None:
+        raise FormatError(f"simplify is for mesh files and folders of them, not for {formats}")
+
+
+def _read_json(path: Path, collected: Collected, max_pieces: int, simplify: float | None) -> str:
     data = read_json(path)
     if compas.is_assembly(data):
+        _refuse(simplify, "COMPAS assemblies")
         compas.read(data, collected, max_pieces)
         return "COMPAS assembly"
     if isinstance(data, dict) and "parts" in data:
-        folder.read_manifest(path, collected, max_pieces)
+        folder.read_manifest(path, collected, max_pieces, simplify)
         return "manifest"
     if isinstance(data, dict) and "bodies" in data:
         raise FormatError(f"{path}: a scene of drystone already: use it as it is")
@@ -167,7 +176,7 @@ def _scene(
         scene.add_solid(
             body.pieces,
             name=body.name,
-            density=body.density if density is None else density,
+            density=(body.density if density is None else density) * body.density_factor,
             friction=body.friction,
             fixed=body.fixed,
         )

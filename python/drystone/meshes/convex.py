@@ -186,6 +186,6 @@ def winding_number(corners: NDArray[np.float64], point: NDArray[np.float64]) -> 
 def too_many_pieces(most: int) -> MeshError:
     """The error for a solid that falls into too many convex pieces."""
     return MeshError(
-        f"it falls into more than {most} convex pieces: simplify the mesh, cut it into convex "
-        "pieces yourself, allow more with max_pieces, or take its convex hull"
+        f"it falls into more than {most} convex pieces: let it be simplified with simplify, "
+        "cut it into convex pieces yourself, allow more with max_pieces, or take its convex hull"
     )

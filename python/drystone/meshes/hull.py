@@ -22,6 +22,11 @@ def hull_volume(points: NDArray[np.float64]) -> float:
         return 0.0
 
 
+def hull_area(points: NDArray[np.float64]) -> float:
+    """Surface of the convex hull of points (k, 3), square metres, that is not flat."""
+    return float(ConvexHull(points).area)
+
+
 def hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Those of the points (k, 3) that are corners of their hull; all of them if it is flat."""
     try:
@@ -29,6 +34,18 @@ def hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
     except (QhullError, ValueError):
         return points
     return corners
+
+
+def hull_triangles(
+    points: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """The hull of corners (k, 3) as vertices and triangles, counter-clockwise from outside."""
+    hull = ConvexHull(points)
+    triangles = hull.simplices.astype(np.int64)
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    inwards = (np.cross(b - a, c - a) * hull.equations[:, :3]).sum(axis=1) < 0
+    triangles[inwards] = triangles[inwards][:, ::-1]
+    return points, triangles
 
 
 def merged(pieces: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:

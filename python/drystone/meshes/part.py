@@ -10,9 +10,10 @@ import numpy as np
 
 from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
-from drystone.meshes.hull import hull_corners, hull_volume
+from drystone.meshes.hull import hull_corners, hull_triangles, hull_volume
 from drystone.meshes.planes import at_least_planes
 from drystone.meshes.reading import read_triangles
+from drystone.meshes.simplify import Simplification, simplified
 from drystone.meshes.surface import repaired
 
 if TYPE_CHECKING:
@@ -48,9 +49,18 @@ class Part:
     pieces: list[NDArray[np.float64]]
     """The corners (k, 3) of each, metres, in the mesh's own frame."""
     volume: float
-    """Cubic metres."""
+    """Cubic metres, of the mesh; its pieces have the same unless it was simplified."""
     messages: list[str] = field(default_factory=list)
     """What was repaired or taken otherwise than given."""
+    simplification: Simplification | None = None
+    """What simplifying did; None if that was not asked for."""
+
+    @property
+    def density_factor(self) -> float:
+        """What makes the pieces weigh as much as the mesh: 1 unless it was simplified."""
+        if self.simplification is None:
+            return 1.0
+        return self.simplification.volume_before / self.simplification.volume_after
 
 
 def read_part(
@@ -60,23 +70,28 @@ def read_part(
     name: str | None = None,
     hull: bool = False,
     max_pieces: int = MOST_PIECES,
+    simplify: float | None = None,
 ) -> Part:
     """The convex pieces of a mesh file (OBJ, STL, PLY, OFF, glTF, GLB) or of a trimesh.Trimesh.
 
     `scale` makes metres of the file's units. `hull` takes the convex hull instead, as simulators do
-    with meshes. Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls
-    into more than `max_pieces` convex pieces, and OSError if the file cannot be opened.
+    with meshes. `simplify` (metres) allows the surface to move by so much, so that scans of many
+    triangles become few pieces; by how much it moved and its volume changed is the part's
+    `simplification`, and its `volume` is still the mesh's. Raises MeshError, naming the mesh and
+    the fix, if it encloses no solid or falls into more than `max_pieces` convex pieces, and OSError
+    if the file cannot be opened.
     """
     label = fspath(source) if isinstance(source, (str, PathLike)) else name or "the mesh"
     try:
         read = read_triangles(source)
         vertices = read.vertices * _factors(scale)
         if hull:
-            return _hull(name or read.name, vertices[np.unique(read.triangles)])
+            return _hull(name or read.name, vertices[np.unique(read.triangles)], simplify)
         triangles = read.triangles
         if np.prod(_factors(scale)) < 0:
             triangles = triangles[:, ::-1]
-        return part_of(name or read.name, vertices, triangles, read.repeats, max_pieces)
+        name = name or read.name
+        return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify)
     except MeshError as error:
         raise MeshError(f"{label}: {error}") from None
 
@@ -87,14 +102,21 @@ def part_of(
     triangles: NDArray[np.int64],
     quietly: bool = False,
     max_pieces: int = MOST_PIECES,
+    simplify: float | None = None,
 ) -> Part:
     """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3)."""
-    _refuse_too_fine(vertices, triangles)
+    if simplify is None:
+        _refuse_too_fine(vertices, triangles)
+    elif not 0 < simplify < np.inf:
+        raise MeshError(f"simplify must be a positive length in metres, not {simplify!r}")
     surface = repaired(vertices, triangles.copy(), quietly)
     tolerance = FLAT * surface.diagonal
     volume, area = surface.volume, surface.area
     if volume <= tolerance * area:
         raise MeshError("it has no volume: a rigid body needs a thickness")
+    if simplify is not None:
+        pieces, note = simplified(surface, simplify, FEW_PLANES, max_pieces, MOST_CORNERS)
+        return Part(name, pieces, volume, [*surface.messages, note.message()], note)
     hull = hull_volume(surface.vertices)
     convex = hull <= (1 + CONVEX) * volume
     middle = surface.vertices.mean(axis=0)  # where numbers are exact to the last bits
@@ -128,18 +150,20 @@ def _refuse_too_fine(vertices: NDArray[np.float64], triangles: NDArray[np.int64]
     most = 2 * MOST_CORNERS
     if at_least_planes(vertices[triangles], tolerance, most) > most:
         raise MeshError(
-            f"its {len(triangles)} triangles lie in more than {most} planes: simplify the mesh, or "
-            "take its convex hull"
+            f"its {len(triangles)} triangles lie in more than {most} planes: let them be "
+            "simplified with simplify, or take its convex hull"
         )
 
 
-def _hull(name: str, points: NDArray[np.float64]) -> Part:
+def _hull(name: str, points: NDArray[np.float64], simplify: float | None) -> Part:
     if not np.isfinite(points).all():
         raise MeshError("some of its vertices are not finite numbers: export it again")
     volume = hull_volume(points)
     if volume <= 0:
         raise MeshError("its convex hull is flat: a rigid body needs a thickness")
     piece = hull_corners(points)
+    if simplify is not None:
+        return part_of(name, *hull_triangles(piece), True, 1, simplify)
     _check_corners(piece)
     return Part(name, [piece], volume)
 
@@ -147,7 +171,8 @@ def _hull(name: str, points: NDArray[np.float64]) -> Part:
 def _check_corners(piece: NDArray[np.float64]) -> None:
     if len(piece) > MOST_CORNERS:
         raise MeshError(
-            f"a convex piece of it has {len(piece)} corners, more than {MOST_CORNERS}: simplify it"
+            f"a convex piece of it has {len(piece)} corners, more than {MOST_CORNERS}: let it be "
+            "simplified with simplify"
         )
 
 

@@ -86,8 +86,8 @@ def faces_by_plane(
     for plane, corners_in_it, outwards in _by_plane(corners, tolerance):
         if len(planes) == most:
             raise MeshError(
-                f"it has more than {most} plane faces: simplify the mesh, cut it "
-                "into convex pieces yourself, or take its convex hull"
+                f"it has more than {most} plane faces: let it be simplified with "
+                "simplify, cut it into convex pieces yourself, or take its convex hull"
             )
         planes.append(plane)
         faces += [
