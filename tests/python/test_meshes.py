@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -441,3 +443,62 @@ def test_what_is_mended_is_a_warning() -> None:
     scene = ds.Scene(dimension=3)
     with pytest.warns(MeshWarning, match="ell: was inside out"):
         scene.add_mesh(mirrored(), name="ell")
+
+
+# glTF
+
+
+def test_a_gltf_with_nodes_is_read_as_it_stands(tmp_path: Path) -> None:
+    """Written byte by byte: a node turns, a node in it moves and scales the mesh of 2 x 3 x 4."""
+    corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 3) for z in (0, 4)], dtype="<f4")
+    triangles = trimesh.creation.box().faces.astype("<u2")
+    data = corners.tobytes() + triangles.tobytes()
+    half = float(np.sqrt(0.5))
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        # A quaternion x, y, z, w: a quarter turn about z, (x, y, z) becomes (-y, x, z).
+        "nodes": [
+            {"rotation": [0, 0, half, half], "children": [1]},
+            {"translation": [10, 0, 0], "scale": [0.5, 1, 1], "mesh": 0},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "accessors": [
+            {
+                "bufferView": 0,
+                "componentType": 5126,
+                "count": 8,
+                "type": "VEC3",
+                "min": [0, 0, 0],
+                "max": [2, 3, 4],
+            },
+            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": 0, "byteLength": corners.nbytes},
+            {"buffer": 0, "byteOffset": corners.nbytes, "byteLength": triangles.nbytes},
+        ],
+        "buffers": [{"byteLength": len(data), "uri": "block.bin"}],
+    }
+    (tmp_path / "block.bin").write_bytes(data)
+    (tmp_path / "block.gltf").write_text(json.dumps(document))
+    text = json.dumps({**document, "buffers": [{"byteLength": len(data)}]}).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
+    chunks += struct.pack("<II", len(data), 0x004E4942) + data
+    header = struct.pack("<III", 0x46546C67, 2, 12 + len(chunks))
+    (tmp_path / "block.glb").write_bytes(header + chunks)
+    for file in ("block.gltf", "block.glb"):
+        scene = ds.Scene(dimension=3)
+        # Its unit is the metre, unless the file was written with another.
+        body = scene.body(scene.add_mesh(tmp_path / file, scale=0.1, density=1000))
+        points = np.concatenate([piece.vertices for piece in body.pieces]) + body.centroid
+        assert points.min(axis=0) == pytest.approx([-0.3, 1.0, 0.0], abs=1e-7)
+        assert points.max(axis=0) == pytest.approx([0.0, 1.1, 0.4], abs=1e-7)
+        assert body.mass == pytest.approx(1000 * 0.1 * 0.3 * 0.4, rel=1e-6)
+        imported = ds.imports.load(tmp_path / file, scale=0.1, up="y")
+        (piece,) = imported.bodies[0].pieces
+        # What was up along y is up along z: (x, y, z) becomes (x, -z, y).
+        assert piece.min(axis=0) == pytest.approx([-0.3, -0.4, 1.0], abs=1e-7)
+        assert piece.max(axis=0) == pytest.approx([0.0, 0.0, 1.1], abs=1e-7)
