@@ -113,12 +113,46 @@ def test_equal_scenes_are_planned_once(tmp_path: Path) -> None:
 
 
 def test_other_settings_and_other_content_are_other_questions(tmp_path: Path) -> None:
-    for settings in ({}, {"test": "lcp"}, {"node_limit": 1}):
+    asked: tuple[dict[str, Any], ...] = (
+        {},
+        {"test": "lcp"},
+        {"hold": 1},
+        {"clear_path": True},
+        {"clear_path": True, "directions": [(1, 0), (0, 1)]},
+        {"clear_path": True, "directions": [(0, 1), (1, 0)]},
+        {"node_limit": 1},
+    )
+    for settings in asked:
         many = ds.plan_many({"a": ds.scenes.column(4)}, output=tmp_path, **settings)
         assert many.reused == 0
         assert timeless(many["a"].plan) == alone(ds.scenes.column(4), **settings)
     assert ds.plan_many({"a": ds.scenes.column(5)}, output=tmp_path, node_limit=1).reused == 0
     assert ds.plan_many({"a": ds.scenes.column(4)}, output=tmp_path, node_limit=1).reused == 1
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_held_and_leaving_along_a_line(dimension: int, tmp_path: Path) -> None:
+    """As alone, on threads; kept in the folder, and taken from it for the same question only."""
+    arch, column = ds.scenes.arch(5), ds.scenes.column(3)
+    up = (0, 1)
+    if dimension == 3:
+        arch, column, up = arch.extruded(), column.extruded(), (0, 0, 1)
+    asked: dict[str, Any] = {"hold": 1, "clear_path": True, "directions": [up]}
+    many = ds.plan_many({"arch": arch, "column": column}, output=tmp_path, **asked)
+    assert timeless(many["arch"].plan) == alone(arch, **asked)
+    assert timeless(many["column"].plan) == alone(column, **asked)
+    assert any(many["arch"].plan["holds"])
+    assert many["column"].plan["directions"] == [list(map(float, up))] * 2
+    again = ds.plan_many({"arch": arch, "column": column}, output=tmp_path, **asked)
+    assert again.reused == 2
+    assert ds.plan_many({"arch": arch}, output=tmp_path, **{**asked, "hold": 2}).reused == 0
+
+
+def test_a_scene_of_another_dimension_than_the_directions(tmp_path: Path) -> None:
+    scenes = {"flat": ds.scenes.column(3), "space": ds.scenes.column(3).extruded()}
+    many = ds.plan_many(scenes, output=tmp_path, clear_path=True, directions=[(0, 1)])
+    assert [answer.state for answer in many] == ["planned", "bad_input"]
+    assert "plan scenes in the plane and in space apart" in many["space"].error
 
 
 DAMAGE: dict[str, Callable[[bytes], bytes]] = {
@@ -208,6 +242,10 @@ def test_what_breaks_is_tried_again(
         ({"test": "simplex"}, ValueError, "unknown test 'simplex'"),
         ({"node_limit": -1}, ValueError, "node_limit is -1"),
         ({"time_limit": float("nan")}, ValueError, "time_limit is nan"),
+        ({"hold": -1}, ValueError, "hold is -1"),
+        ({"directions": [(0, 1)]}, ValueError, "give clear_path=True with them"),
+        ({"directions": [(0, 1), (0, 0, 1)], "clear_path": True}, ValueError, "must all have two"),
+        ({"directions": [(0, 0)], "clear_path": True}, ds.DrystoneError, "directions"),
         ({"workers": 0}, ValueError, "workers is 0"),
         ({"retries": -1}, ValueError, "retries is -1"),
         ({"address": "auto"}, ValueError, "address 'auto' is for engine='ray'"),
@@ -325,6 +363,17 @@ def test_of_a_folder(cli: Cli, folder: Path, scenes: dict[str, ds.Scene], tmp_pa
     assert ran.status == 2
     assert ran.err == "drystone: 2 of 11 not planned: cut, latin\n"
     assert "SceneError" in ran.out
+
+
+def test_of_a_folder_with_holds(cli: Cli, folder: Path, tmp_path: Path) -> None:
+    ran = cli("plan", folder, "-o", tmp_path / "out", "--hold", 1, "--clear-path")
+    assert (ran.status, ran.err) == (0, "")
+    assert ran.out.startswith("10 of 10 scenes with an order.")
+    record = json.loads(next((tmp_path / "out").glob("arch-*.json")).read_text())
+    assert record["settings"]["hold"] == 1
+    assert record["settings"]["clear_path"] is True
+    assert any(record["plan"]["holds"])
+    assert len(record["plan"]["directions"]) == len(record["plan"]["order"])
 
 
 @pytest.mark.parametrize(

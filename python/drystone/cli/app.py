@@ -182,12 +182,19 @@ def plan(
 
         if threads is not None:
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
-        if hold or clear_path:
-            raise InputError(f"{scene} is a folder: --hold and --clear-path are for one scene")
         where = (engine or Engine.threads).value
         limits = (node_limit, time_limit)
         return plan_many.run(
-            Path(scene), where, output, test.value, *limits, workers, address, as_json
+            Path(scene),
+            where,
+            output,
+            test.value,
+            *limits,
+            workers,
+            address,
+            as_json,
+            hold=hold,
+            clear_path=clear_path,
         )
     if engine is not None or workers is not None or address is not None:
         raise InputError(f"{scene} is no folder: --engine, --workers and --address are for folders")

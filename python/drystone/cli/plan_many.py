@@ -32,6 +32,9 @@ def run(
     workers: int | None,
     address: str | None,
     as_json: bool,
+    *,
+    hold: int = 0,
+    clear_path: bool = False,
 ) -> int:
     """0 if every scene has an order, 1 if some has none, 2 if some could not be planned."""
     if output is None:
@@ -48,6 +51,8 @@ def run(
                 test=test,
                 node_limit=node_limit,
                 time_limit=time_limit,
+                hold=hold,
+                clear_path=clear_path,
                 workers=workers,
                 address=address,
                 progress=progress,

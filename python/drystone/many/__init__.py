@@ -8,7 +8,7 @@ and send back the text of an answer.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 
 from drystone.many import engines
@@ -36,6 +36,9 @@ def plan_many(
     node_limit: int | None = None,
     time_limit: float | None = None,
     shortcuts: bool = True,
+    hold: int = 0,
+    clear_path: bool = False,
+    directions: Sequence[Sequence[float]] | None = None,
     workers: int | None = None,
     address: str | None = None,
     retries: int = 3,
@@ -59,8 +62,8 @@ def plan_many(
     With `output`, a folder, every answer is written as it comes: one file a scene, named by the
     scene's name and content, whole or not at all, and a line in `index.jsonl`. A later call with
     the same folder repeats nothing that is there for the same content and the same settings
-    (`test`, `node_limit`, `time_limit`, `shortcuts` and the version of drystone). Without `output`
-    answers are kept in memory only.
+    (`test`, `node_limit`, `time_limit`, `shortcuts`, `hold`, `clear_path`, `directions` and the
+    version of drystone). Without `output` answers are kept in memory only.
 
     A scene that cannot be read is recorded as such and stops nothing. Ctrl-C ends the call early:
     what is finished is in the answer, whose `interrupted` is then true.
@@ -78,7 +81,10 @@ def plan_many(
     ...     first["column"].order, first["arch"].status, again.reused
     (('3', '2', '1'), 'no_order', 2)
     """
-    settings = Settings.checked(test, node_limit, time_limit, shortcuts)
+    if directions is not None and not clear_path:
+        raise ValueError("directions are for straight ways out: give clear_path=True with them")
+    ways = tuple(tuple(map(float, way)) for way in directions or ())
+    settings = Settings(test, node_limit, time_limit, shortcuts, hold, clear_path, ways).checked()
     jobs, total = jobs_of(scenes)
     run = engines.of(engine, workers=workers, address=address, retries=retries)
     answers: dict[str, ScenePlan | None] = {}  # in the order of the scenes; None: under way

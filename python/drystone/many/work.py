@@ -24,31 +24,46 @@ class Settings:
     node_limit: int | None
     time_limit: float | None
     shortcuts: bool
-    drystone: str
-    """Version: another one may find another order."""
+    hold: int = 0
+    clear_path: bool = False
+    directions: tuple[tuple[float, ...], ...] = ()
+    drystone: str = _core.__version__
+    """Another version may find another order."""
 
-    @classmethod
-    def checked(
-        cls, test: str, node_limit: int | None, time_limit: float | None, shortcuts: bool
-    ) -> Settings:
-        """The settings; ValueError if `plan` would refuse them."""
-        settings = cls(test, node_limit, time_limit, shortcuts, _core.__version__)
-        settings.plan(Scene.from_json(SMALLEST), None)
-        return settings
+    def checked(self) -> Settings:
+        """The settings; ValueError or SceneError if `plan` would refuse them for any scene."""
+        lengths = {len(way) for way in self.directions}
+        if lengths - {2, 3} or len(lengths) > 1:
+            raise ValueError(
+                "directions must all have two numbers, for scenes in the plane, or three, in space"
+            )
+        flat = Scene._of(_core.Scene.built_in("column", {"n": 1}))
+        self.plan(flat.extruded() if lengths == {3} else flat, None)
+        return self
 
     def plan(self, scene: Scene, progress: Progress | None) -> Plan:
         """The plan of `scene` under these settings."""
-        limits = (self.node_limit, self.time_limit)
-        # One thread: every core has a scene of its own.
-        return plan(scene, self.test, *limits, progress, shortcuts=self.shortcuts, threads=1)
+        if self.directions and len(self.directions[0]) != scene.dimension:
+            raise _core.SceneError(
+                f"directions have {len(self.directions[0])} numbers each, and this scene "
+                f"{scene.dimension} dimensions: plan scenes in the plane and in space apart"
+            )
+        return plan(
+            scene,
+            self.test,
+            self.node_limit,
+            self.time_limit,
+            progress,
+            self.shortcuts,
+            1,  # thread: every core has a scene of its own
+            self.hold,
+            self.clear_path,
+            self.directions or None,
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """In types that JSON knows."""
-        return asdict(self)
-
-
-SMALLEST = _core.Scene.built_in("column", {"n": 1}).to_json()
-"""A scene to try settings on."""
+        return {**asdict(self), "directions": [list(way) for way in self.directions]}
 
 
 def plan_text(text: str, source: str, settings: Settings, progress: Progress | None = None) -> str:
