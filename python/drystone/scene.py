@@ -134,6 +134,11 @@ class Scene:
         `vertices` are at least three (x, y) in metres, in counter-clockwise order. The other
         arguments and the errors are those of `add_box`.
         """
+        if self.dimension == 3:
+            raise _core.SceneError(
+                "this scene is in space, where bodies are solids: add_polyhedron takes their "
+                "corners, add_box their size"
+            )
         corners = [_pair(vertex, "a vertex") for vertex in vertices]
         return self._core.add_polygon(corners, name, density, friction, fixed)
 

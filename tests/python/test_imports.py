@@ -315,6 +315,7 @@ def test_a_manifest(parts: Path) -> None:
         ({}, "part 0 must be an object with a file"),
         ({"name": "x"}, "file is needed"),
         ({"file": "0.obj", "colour": 1}, "unknown field 'colour'"),
+        ({"file": "0.obj", "densty": 1}, r"'densty' \(did you mean 'density'\?\)"),
         ({"file": "0.obj", "position": [0, 0]}, "position must be 3 numbers"),
         ({"file": "0.obj", "orientation": [0, 0, 0, 0]}, "orientation must be a quaternion"),
         ({"file": "0.obj", "density": "heavy"}, "density must be a finite number"),
@@ -333,8 +334,12 @@ def test_a_folder_without_parts(tmp_path: Path) -> None:
 
 
 def test_a_manifest_with_a_file_that_is_not_there(tmp_path: Path) -> None:
-    (tmp_path / "manifest.json").write_text('{"parts": [{"file": "none.obj"}]}')
-    with pytest.raises(FileNotFoundError):
+    (tmp_path / "manifest.json").write_text('{"parts": [{"file": "brik.obj"}]}')
+    says = r"manifest\.json: part 0: there is no file 'brik.obj' beside the manifest"
+    with pytest.raises(FormatError, match=f"{says}$"):
+        load(tmp_path)
+    trimesh.creation.box().export(tmp_path / "brick.obj")
+    with pytest.raises(FormatError, match=rf"{says} \(did you mean 'brick.obj'\?\)"):
         load(tmp_path)
 
 

@@ -204,7 +204,10 @@ BAD = {
         ["p", "pieces 0 and 1 overlap"],
     ),
     "no pieces": (lambda s: s.add_solid([], name="e"), ["e", "no pieces"]),
-    "a polygon": (lambda s: s.add_polygon([(0, 0), (1, 0), (0, 1)]), ["in space", "dimension 2"]),
+    "a polygon": (
+        lambda s: s.add_polygon([(0, 0), (1, 0), (0, 1)]),
+        ["in space", "add_polyhedron"],
+    ),
     "facets": (lambda s: ds.check(s, facets=2), ["facets is 2", "at least 3"]),
 }
 

@@ -8,6 +8,8 @@ the `config.json` of ASAP and Assemble-Them-All, if there is one, says where the
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -67,11 +69,17 @@ def _add_listed(
     unknown = sorted(fields.keys() - FIELDS)
     if unknown:
         raise FormatError(
-            f"{what}: unknown field {unknown[0]!r}: known are {', '.join(sorted(FIELDS))}"
+            f"{what}: unknown field {unknown[0]!r}{_like(unknown[0], FIELDS)}: known are "
+            f"{', '.join(sorted(FIELDS))}"
         )
     file, name = fields.get("file"), fields.get("name")
     if not isinstance(file, str) or not isinstance(name, (str, type(None))):
         raise FormatError(f"{what}: file and name must be strings, and file is needed")
+    if not (path.parent / file).exists():
+        beside = [p.name for p in path.parent.iterdir() if p.suffix.lower() in ENDINGS]
+        raise FormatError(
+            f"{what}: there is no file {file!r} beside the manifest{_like(file, beside)}"
+        )
     if not isinstance(fields.get("fixed", False), bool):
         raise FormatError(f"{what}: fixed must be true or false")
     scale = finite(fields.get("scale", 1.0), f"{what}: scale")
@@ -95,6 +103,12 @@ def _add(collected: Collected, part: Part, pose: Pose, **options: Any) -> None:
     collected.say(part.name, part.messages)
     pieces = [pose.apply(piece) for piece in part.pieces]
     collected.add(part.name, pieces, density_factor=part.density_factor, **options)
+
+
+def _like(word: str, known: Iterable[str]) -> str:
+    """The nearest of the `known` words, as a question; empty if none is near."""
+    near = get_close_matches(word, sorted(known), n=1)
+    return f" (did you mean {near[0]!r}?)" if near else ""
 
 
 def _asap_poses(folder: Path) -> dict[str, Pose]:
