@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import _thread
 import copy
 import pickle
+import signal
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -179,6 +182,19 @@ def test_the_scenes_have_the_defaults_of_the_core() -> None:
     assert [name for name, _, _ in _core.catalogue()] == ds.scenes.__all__
     for name in ds.scenes.__all__:
         assert getattr(ds.scenes, name)().to_json() == _core.Scene.built_in(name, {}).to_json()
+
+
+def test_building_a_stack_lets_other_threads_run_and_can_be_interrupted() -> None:
+    """A second or more of work, stopped by a thread that could not run beside it otherwise."""
+    timer = threading.Timer(0.1, _thread.interrupt_main)
+    handler = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            ds.scenes.random_stack(1000, seed=2)
+    finally:
+        timer.join()
+        signal.signal(signal.SIGINT, handler)
 
 
 def test_the_same_seed_gives_the_same_stack() -> None:

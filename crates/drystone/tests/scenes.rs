@@ -164,6 +164,25 @@ fn a_random_stack_is_the_same_for_the_same_seed_and_stands() {
 }
 
 #[test]
+fn building_a_random_stack_can_be_stopped() {
+    let given = BTreeMap::from([("blocks".to_owned(), 30.into())]);
+    let mut asked = 0;
+    let stopped = scenes::build_while("random_stack", &given, &mut || {
+        asked += 1;
+        asked < 10
+    });
+    assert_eq!(stopped, Err(SceneError::Interrupted { scene: "random_stack" }));
+    assert_eq!(asked, 10);
+    let mut asked = 0;
+    let whole = scenes::build_while("random_stack", &given, &mut || {
+        asked += 1;
+        true
+    });
+    assert_eq!(whole, scenes::build("random_stack", &given));
+    assert_eq!(asked, 30);
+}
+
+#[test]
 fn a_random_stack_has_overhangs_and_blocks_that_need_others() {
     // Some block must fall when some other one, not below it, is taken away: a counterweight.
     let scene = scenes::random_stack(84, 1, 0.0).unwrap();

@@ -1,6 +1,6 @@
 //! `Scene` and what it shows of itself.
 
-use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error};
+use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, watch::Watch};
 use drystone::{
     AnyScene, BodyOptions, SceneError, SceneOf,
     contact::find_solid_contacts,
@@ -122,11 +122,11 @@ impl Scene {
         }
     }
 
-    fn found(&self) -> PyResult<drystone::ContactSet> {
-        raised(match &self.core {
+    fn found(&self, py: Python<'_>) -> PyResult<drystone::ContactSet> {
+        raised(py.detach(|| match &self.core {
             AnyScene::Plane(scene) => find_contacts(scene),
             AnyScene::Space(scene) => find_solid_contacts(scene),
-        })
+        }))
     }
 }
 
@@ -293,8 +293,9 @@ impl Scene {
     }
 
     /// The same scene in space, every block with this thickness.
-    fn extruded(&self, depth: f64) -> PyResult<Self> {
-        let solid = raised(scenes::extruded(&self.planar()?, depth))?;
+    fn extruded(&self, py: Python<'_>, depth: f64) -> PyResult<Self> {
+        let planar = self.planar()?;
+        let solid = raised(py.detach(|| scenes::extruded(&planar, depth)))?;
         Ok(Self { core: solid.into() })
     }
 
@@ -314,7 +315,7 @@ impl Scene {
         (0..self.core.len()).map(|index| self.body_at(py, index)).collect()
     }
 
-    fn contacts(&self) -> PyResult<Vec<Contact>> {
+    fn contacts(&self, py: Python<'_>) -> PyResult<Vec<Contact>> {
         let in_plane = self.core.dimension() == 2;
         let contact = |c: drystone::Contact| Contact {
             a: self.core.name(c.bodies[0]).to_owned(),
@@ -325,40 +326,45 @@ impl Scene {
             gap: c.gap,
             friction: c.friction,
         };
-        Ok(self.found()?.contacts.into_iter().map(contact).collect())
+        Ok(self.found(py)?.contacts.into_iter().map(contact).collect())
     }
 
-    fn corner_touches(&self) -> PyResult<Vec<(String, String)>> {
+    fn corner_touches(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
         let name = |index: usize| self.core.name(index).to_owned();
-        Ok(self.found()?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
+        Ok(self.found(py)?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
     }
 
     fn to_json(&self) -> String {
         self.core.to_json()
     }
 
-    fn save(&self, path: &str) -> PyResult<()> {
-        io::save(&self.core, path).map_err(|error| scene_error(&error))
+    fn save(&self, py: Python<'_>, path: &str) -> PyResult<()> {
+        raised(py.detach(|| io::save(&self.core, path)))
     }
 
     #[staticmethod]
     #[pyo3(signature = (text, source="scene"))]
-    fn from_json(text: &str, source: &str) -> PyResult<Self> {
-        io::from_json(text, source).map(|core| Self { core }).map_err(|error| scene_error(&error))
+    fn from_json(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
+        raised(py.detach(|| io::from_json(text, source))).map(|core| Self { core })
     }
 
     #[staticmethod]
-    fn load(path: &str) -> PyResult<Self> {
-        io::load(path).map(|core| Self { core }).map_err(|error| scene_error(&error))
+    fn load(py: Python<'_>, path: &str) -> PyResult<Self> {
+        raised(py.detach(|| io::load(path))).map(|core| Self { core })
     }
 
     #[staticmethod]
-    fn built_in(name: &str, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
+    fn built_in(py: Python<'_>, name: &str, parameters: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut values = BTreeMap::new();
         for (key, value) in parameters {
             values.insert(key.extract::<String>()?, json_value(&value)?);
         }
-        scenes::build(name, &values).map(|core| Self { core }).map_err(|error| scene_error(&error))
+        let mut watch = Watch::new(None);
+        let built = py.detach(|| scenes::build_while(name, &values, &mut || watch.no_interrupt()));
+        match watch.error() {
+            Some(error) => Err(error),
+            None => raised(built).map(|core| Self { core }),
+        }
     }
 }
 

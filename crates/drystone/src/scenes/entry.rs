@@ -4,6 +4,7 @@ use crate::any_scene::AnyScene;
 use crate::error::SceneError;
 use crate::suggest::nearest;
 use serde_json::Value;
+use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// A built-in scene in the [`catalogue`](super::catalogue).
@@ -67,25 +68,37 @@ pub(super) const fn seed(default: u64, summary: &'static str) -> Parameter {
     integer("seed", default, [0, 1 << 53], summary)
 }
 
-/// The values of a scene's parameters, by position.
-pub(super) struct Arguments(Vec<f64>);
+/// The values of a scene's parameters, by position, and whether to go on building it.
+pub(super) struct Arguments<'a> {
+    values: Vec<f64>,
+    go_on: RefCell<&'a mut dyn FnMut() -> bool>,
+}
 
-impl Arguments {
+impl Arguments<'_> {
     pub fn integer(&self, position: usize) -> u64 {
-        self.0[position] as u64
+        self.values[position] as u64
     }
 
     pub fn size(&self, position: usize) -> usize {
-        self.0[position] as usize
+        self.values[position] as usize
     }
 
     pub fn number(&self, position: usize) -> f64 {
-        self.0[position]
+        self.values[position]
+    }
+
+    /// To be asked many times a second by what takes longer.
+    pub fn go_on(&self) -> bool {
+        (self.go_on.borrow_mut())()
     }
 }
 
 impl SceneEntry {
-    pub(super) fn build(&self, given: &BTreeMap<String, Value>) -> Result<AnyScene, SceneError> {
+    pub(super) fn build(
+        &self,
+        given: &BTreeMap<String, Value>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Result<AnyScene, SceneError> {
         if let Some(unknown) = given.keys().find(|name| self.parameter(name).is_none()) {
             return Err(self.unknown_parameter(unknown));
         }
@@ -94,7 +107,7 @@ impl SceneEntry {
             Some(value) => self.read(parameter, value),
         };
         let values = self.parameters.iter().map(value).collect::<Result<_, _>>()?;
-        (self.make)(&Arguments(values))
+        (self.make)(&Arguments { values, go_on: RefCell::new(go_on) })
     }
 
     /// Checks that the values lie in the ranges of the parameters, in the same order.
