@@ -83,7 +83,13 @@ def opened(browser: Browser, tmp_path: Path) -> Iterator[Opener]:
     assert all(url.startswith(("file://", "data:", "about:", "blob:")) for url in asked), asked
 
 
-LIGHT = {"stone": "#e4dccb", "still": "#6b7178", "next": "#e69f00", "force": "#005fa3"}
+LIGHT = {
+    "stone": "#e4dccb",
+    "still": "#6b7178",
+    "next": "#e69f00",
+    "force": "#005fa3",
+    "held": "#c2185b",
+}
 """Colours of the page where it is light."""
 
 

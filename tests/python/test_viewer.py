@@ -168,6 +168,18 @@ def test_charts_hold_every_test_once() -> None:
     assert np.isnan(np.asarray(pivots.values)[[0, -1]]).all(), "whole and nothing are not tested"
 
 
+def test_what_is_held_is_recorded_step_by_step() -> None:
+    plan = ds.plan(ds.scenes.arch(7), hold=1)
+    recording = plan_recording(plan)
+    names = plan.scene.names
+    assert recording.held is not None
+    held = [{names[i] for i in np.flatnonzero(row)} for row in recording.held]
+    assert held == [set(names) for names in plan.holds] + [set()] * (len(held) - len(plan.holds))
+    assert any(held)
+    assert np.array_equal(unpacked(recording.to_json()["frames"]["held"]), recording.held)
+    assert plan_recording(ds.plan(ds.scenes.column(3))).held is None
+
+
 def test_without_an_order_the_largest_structure_is_shown() -> None:
     plan = ds.plan(orderless(1))
     recording = plan_recording(plan)

@@ -163,6 +163,24 @@ def test_frames_without_forces_show_those_before_and_say_so(opened: Opener, plan
     says(tab, "caption", "4 is taken away; 3 blocks left. Next: 3.")
 
 
+def test_held_blocks_are_hatched_and_named(opened: Opener) -> None:
+    plan = ds.plan(ds.scenes.arch(7), hold=1)
+    first = next(step for step, names in enumerate(plan.holds) if names)
+    tab = opened(plan.view())
+    expect(tab.locator("#legend")).to_contain_text("held")
+    assert (first == 0) == (count(pixels(tab), LIGHT["held"]) > 0)
+    tab.locator("#scrub").fill(str(first))
+    expect(tab.locator("#caption")).to_contain_text(f"Held: {plan.holds[first][0]}.")
+    expect(tab.locator("#caption")).to_contain_text("(No forces are shown: blocks are held.)")
+    press(tab, "n")
+    picture = pixels(tab)
+    assert count(picture, LIGHT["held"]) > 100
+    assert count(picture, LIGHT["force"]) < 200, "the key alone"
+    card = hover(tab, *find(tab, LIGHT["held"]))
+    expect(card.locator("strong")).to_have_text(plan.holds[first][0])
+    expect(card).to_contain_text("by a hand or a scaffold")
+
+
 def test_the_card_of_a_block(opened: Opener, plan: ds.Plan) -> None:
     tab = opened(plan.view())
     place = find(tab, LIGHT["next"])

@@ -225,11 +225,31 @@ def test_hover_names_a_block_and_its_state(opened: Opener) -> None:
     expect(card).to_contain_text("next to be taken away")
     expect(card).to_contain_text("1 kg (1 kg/m³)")
     press(tab, "ArrowRight")
-    tab.wait_for_timeout(100)
-    assert card.is_hidden() or card.locator("strong").inner_text() != "top"
+    expect(card.locator("strong")).to_have_text("top")
+    expect(card).to_contain_text("taken away in step 1")
     tab.mouse.move(1, 1)
     press(tab, "]", "]")
     expect(card.locator("strong")).to_have_text("low00")
+
+
+def test_held_blocks_have_a_colour_of_their_own(opened: Opener) -> None:
+    recording = plan_by_hand()
+    held = np.zeros(recording.states.shape, dtype=bool)
+    held[0, [body.name for body in recording.bodies].index("low00")] = True
+
+    def reddish(tab: Tab) -> int:
+        bare(tab)
+        red, green, blue = (pixels(tab)[:, :, i] for i in range(3))
+        return int(np.sum((red - green > 40) & (blue - green > 5)))
+
+    assert reddish(opened(Page(recording))) == 0
+    tab = opened(Page(replace(recording, held=held)))
+    assert reddish(tab) > 500
+    expect(tab.locator("#legend")).to_contain_text("held")
+    press(tab, "ArrowRight")
+    tab.wait_for_timeout(600)
+    red, green, blue = (pixels(tab)[:, :, i] for i in range(3))
+    assert int(np.sum((red - green > 40) & (blue - green > 5))) == 0
 
 
 def test_play_takes_blocks_away(opened: Opener) -> None:

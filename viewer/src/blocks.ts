@@ -45,6 +45,7 @@ export function drawBlocks(scene: Scene, fade: Fade, style: BlockStyle): void {
     fill(scene, groups.next, colours.next);
     outline(scene, groups.next, colours.ink, Math.max(2 * width, 2));
     for (const body of groups.next) drawRing(scene, body, colours.next);
+    drawHeld(scene, colours);
     if (style.names) drawNames(scene, colours);
     if (style.marked >= 0) outline(scene, [style.marked], colours.ink, 2.5);
 }
@@ -110,17 +111,34 @@ function drawGround(scene: Scene, bodies: number[], colours: Palette): void {
     if (bodies.length === 0) return;
     const { context } = scene;
     fill(scene, bodies, colours.ground);
+    context.lineWidth = 0.75;
+    hatch(scene, bodies, colours.hatch, true);
+    outline(scene, bodies, colours.hatch, 1);
+}
+
+/** Held bodies are hatched the other way, as in the pictures of plans. */
+function drawHeld(scene: Scene, colours: Palette): void {
+    const { context, film, frame } = scene;
+    const there = film.bodies.map((_, body) => body).filter((body) => film.held(frame, body));
+    if (there.length === 0) return;
+    context.lineWidth = 1.5;
+    hatch(scene, there, colours.held, false);
+    outline(scene, there, colours.held, Math.max(lineWidth(scene), 2));
+}
+
+/** Lines across some bodies that rise to the right, or fall. */
+function hatch(scene: Scene, bodies: number[], colour: string, rising: boolean): void {
+    const { context } = scene;
+    trace(scene, bodies);
     context.save();
     context.clip();
-    context.strokeStyle = colours.hatch;
-    context.lineWidth = 0.75;
+    context.strokeStyle = colour;
     context.beginPath();
     const { clientWidth: w, clientHeight: h } = context.canvas;
     for (let x = -h; x < w; x += 9) {
-        context.moveTo(x, h);
-        context.lineTo(x + h, 0);
+        context.moveTo(x, rising ? h : 0);
+        context.lineTo(x + h, rising ? 0 : h);
     }
     context.stroke();
     context.restore();
-    outline(scene, bodies, colours.hatch, 1);
 }

@@ -68,6 +68,8 @@ export interface Frames {
     poses: Packed | null;
     /** u8 (count, bodies), see `State`. */
     states: Packed;
+    /** u8 (count, bodies): 1 for what a hand or a scaffold holds. Without it nothing is held. */
+    held: Packed | null;
     /** [frame, text]: what is said from this frame on, frames ascending. */
     captions: [number, string][];
 }

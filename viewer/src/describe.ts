@@ -20,6 +20,14 @@ export function caption(film: Film, frame: number): string {
     return `${tally(film, frame, State.motionless)} of ${counted(movable, "block")} motionless`;
 }
 
+/** Whose forces are shown, where they are not the frame's own. */
+export function forcesShown(film: Film, frame: number): string {
+    const shown = film.forcesFrame(frame);
+    if (shown === frame) return "";
+    if (shown >= 0) return ` (Forces: those of step ${film.step(shown)}.)`;
+    return film.holds(frame) ? " (No forces are shown: blocks are held.)" : " (Forces: none.)";
+}
+
 function tally(film: Film, frame: number, state: State): number {
     const is = (fixed: boolean, body: number) => !fixed && film.state(frame, body) === state;
     return film.bodies.filter(({ fixed }, body) => is(fixed, body)).length;
@@ -29,6 +37,7 @@ function tally(film: Film, frame: number, state: State): number {
 export function facts(film: Film, frame: number, body: number): [string, string][] {
     const { fixed, mass, density, friction } = film.bodies[body];
     const rows: [string, string][] = [["state", stateOf(film, frame, body)]];
+    if (film.held(frame, body)) rows.push(["held", "by a hand or a scaffold, under any load"]);
     const power = film.dimension === 3 ? "³" : "²";
     if (!fixed) rows.push(["mass", `${figures(mass)} kg (${figures(density)} kg/m${power})`]);
     rows.push(["friction", figures(friction)]);

@@ -11,6 +11,7 @@ export interface FilmForces {
 
 export interface FilmArrays {
     states: Uint8Array;
+    held: Uint8Array | null;
     poses: Float32Array | null;
     times: Float64Array | null;
     steps: Uint32Array | null;
@@ -82,6 +83,19 @@ export class Film {
         return this.arrays.states[frame * this.bodies.length + body] as State;
     }
 
+    /** Whether a hand or a scaffold holds a body. */
+    held(frame: number, body: number): boolean {
+        return this.arrays.held?.[frame * this.bodies.length + body] === 1;
+    }
+
+    /** Whether anything is held in a frame, by default in any. */
+    holds(frame?: number): boolean {
+        const { held } = this.arrays;
+        const n = this.bodies.length;
+        const some = frame === undefined ? held : held?.subarray(frame * n, (frame + 1) * n);
+        return some?.includes(1) ?? false;
+    }
+
     /** Where a body is, as `Body.pose`. */
     pose(frame: number, body: number): ArrayLike<number> & Iterable<number> {
         const { poses } = this.arrays;
@@ -109,10 +123,14 @@ export class Film {
         return this.arrays.forces !== null;
     }
 
-    /** The last frame up to `frame` whose forces are in the recording; -1 for none. */
+    /**
+     * The last frame up to `frame` whose forces are in the recording; -1 for none. Forces from
+     * before blocks were held say nothing of what holds.
+     */
     forcesFrame(frame: number): number {
         const frames = this.arrays.forces?.frames ?? new Uint32Array();
-        return frames[lastUpTo(frames, frame)] ?? -1;
+        const last = frames[lastUpTo(frames, frame)] ?? -1;
+        return last !== frame && this.holds(frame) ? -1 : last;
     }
 
     /** Contact forces of a frame; null if they are not in the recording. */

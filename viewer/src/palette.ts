@@ -13,6 +13,7 @@ const NAMES = [
     "falling",
     "fall",
     "force",
+    "held",
     "still-name",
     "mark-name",
     "series",

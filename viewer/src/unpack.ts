@@ -16,15 +16,16 @@ export async function unpack(text: string): Promise<Film> {
     const { frames, bodies } = recording;
     const per = (...shape: number[]) => shape;
     const pose = recording.dimension === 3 ? 7 : 3;
-    const [states, poses, times, steps, forces, ...series] = await Promise.all([
+    const [states, held, poses, times, steps, forces, ...series] = await Promise.all([
         array(frames.states, "u8", per(frames.count, bodies.length)),
+        optional(frames.held, "u8", per(frames.count, bodies.length)),
         optional(frames.poses, "f32", per(frames.count, bodies.length, pose)),
         optional(frames.times, "f64", per(frames.count)),
         optional(frames.steps, "u32", per(frames.count)),
         recording.forces && forcesOf(recording.forces),
         ...recording.series.map((one) => array(one.values, "f32", per(frames.count))),
     ]);
-    return new Film(recording, { states, poses, times, steps, forces, series });
+    return new Film(recording, { states, held, poses, times, steps, forces, series });
 }
 
 function parsed(text: string): Recording {

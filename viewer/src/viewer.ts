@@ -3,7 +3,7 @@ import { Card } from "./card.ts";
 import { Chart } from "./chart.ts";
 import { State } from "./contract.ts";
 import { Controls, element } from "./controls.ts";
-import { caption, facts, place } from "./describe.ts";
+import { caption, facts, forcesShown, place } from "./describe.ts";
 import { Fade } from "./fade.ts";
 import type { Film } from "./film.ts";
 import { drawLegend } from "./legend.ts";
@@ -121,10 +121,7 @@ export class Viewer {
     private say(frame: number): void {
         const { film, timeline } = this;
         const where = place(film, frame);
-        const shown = film.forcesFrame(frame);
-        const old = this.showsForces && shown !== frame;
-        const of = shown < 0 ? "none" : `those of step ${film.step(shown)}`;
-        const what = caption(film, frame) + (old ? ` (Forces: ${of}.)` : "");
+        const what = caption(film, frame) + (this.showsForces ? forcesShown(film, frame) : "");
         element("place").textContent = where;
         const said = element("caption");
         // Read aloud where the watcher stops, not sixty times a second.

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { caption, facts, place } from "../src/describe.ts";
+import { caption, facts, forcesShown, place } from "../src/describe.ts";
 import { counted, figures, measure } from "../src/format.ts";
-import { filmOf, planRecording, runRecording } from "./fixture.ts";
+import { filmOf, packed, planRecording, runRecording } from "./fixture.ts";
 
 test("a plan's card says when the block goes", async () => {
     const film = await filmOf(planRecording());
@@ -17,6 +17,23 @@ test("a plan's card says when the block goes", async () => {
     assert.equal(facts(film, 1, 2)[0][1], "taken away in step 1");
     assert.deepEqual(facts(film, 0, 0)[0], ["state", "fixed"]);
     assert.equal(place(film, 1), "Step 1 of 2");
+});
+
+test("what is held is said, and that it has no forces", async () => {
+    const recording = planRecording();
+    recording.frames.held = packed(Uint8Array.of(0, 0, 0, 0, 1, 0, 0, 0, 0), [3, 3]);
+    const film = await filmOf(recording);
+    assert.deepEqual(facts(film, 1, 1)[1], ["held", "by a hand or a scaffold, under any load"]);
+    assert.notEqual(facts(film, 0, 1)[1][0], "held");
+    assert.deepEqual(
+        [0, 1, 2].map((frame) => film.holds(frame)),
+        [false, true, false],
+    );
+    assert.ok(film.holds());
+    assert.equal(film.forcesFrame(1), -1, "those of step 0 are of a structure that nobody holds");
+    assert.equal(forcesShown(film, 1), " (No forces are shown: blocks are held.)");
+    assert.equal(forcesShown(film, 0), "");
+    assert.equal(forcesShown(await filmOf(planRecording()), 1), " (Forces: those of step 0.)");
 });
 
 test("a run's card says where the body is", async () => {

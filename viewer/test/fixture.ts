@@ -49,6 +49,7 @@ export function planRecording(): Recording {
             steps: null,
             times: null,
             poses: null,
+            held: null,
             states: packed(
                 Uint8Array.of(present, present, next, present, next, absent, 1, absent, absent),
                 [3, 3],
@@ -79,6 +80,7 @@ export function runRecording(): Recording {
             count: 2,
             steps: packed(Uint32Array.of(0, 2)),
             times: packed(Float64Array.of(0, 0.2)),
+            held: null,
             poses: packed(
                 Float32Array.of(
                     ...[0, -0.5, 0, 0, 0.5, 0, 0, 1.5, 0],

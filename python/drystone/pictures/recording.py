@@ -19,6 +19,7 @@ from drystone.pictures.shapes import (
     draw_absent,
     draw_blocks,
     draw_fixed,
+    draw_held,
     draw_labels,
     typical_size,
 )
@@ -43,6 +44,10 @@ def frame_figure(recording: Recording, frame: int) -> Figure:
     if recording.kind == "plan":
         draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in fills])
     draw_blocks(canvas, bodies, fills)
+    if recording.held is not None:
+        draw_held(
+            canvas, [b for b, held in zip(bodies, recording.held[frame], strict=True) if held]
+        )
     draw_labels(canvas, bodies, {name: name for name in fills}, fills)
     if recording.forces is not None:
         _draw_forces(canvas, recording, recording.forces, frame)

@@ -57,13 +57,14 @@ class BodyJson(TypedDict):
 
 
 class FramesJson(TypedDict):
-    """What is where: `states` is u8 (count, bodies), `poses` f32 (count, bodies, 3 or 7)."""
+    """What is where: `states`, `held` u8 (count, bodies), `poses` f32 (count, bodies, 3 or 7)."""
 
     count: int
     steps: Packed | None
     times: Packed | None
     poses: Packed | None
     states: Packed
+    held: Packed | None
     captions: list[tuple[int, str]]
 
 

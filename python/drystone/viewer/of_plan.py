@@ -49,6 +49,7 @@ def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
         title=headline,
         bodies=plan.scene.bodies,
         states=_states(plan, order),
+        held=_held(plan, len(order) + 1) if any(plan.holds) else None,
         gravity=plan.scene.gravity,
         forces=_forces(plan.scene, order, progress, plan.cones),
         series=_series(plan, len(order)),
@@ -70,6 +71,14 @@ def _states(plan: Plan, order: Sequence[str]) -> NDArray[np.uint8]:
     for name in plan.falls_next:
         states[0, names.index(name)] = FALLING
     return states.astype(np.uint8)
+
+
+def _held(plan: Plan, frames: int) -> NDArray[np.bool_]:
+    names = plan.scene.names
+    held = np.zeros((frames, len(names)), dtype=bool)
+    for step, blocks in enumerate(plan.holds):
+        held[step, [names.index(name) for name in blocks]] = True
+    return held
 
 
 def _captions(plan: Plan, order: Sequence[str]) -> list[tuple[int, str]]:

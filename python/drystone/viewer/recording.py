@@ -89,6 +89,8 @@ class Recording:
     """(frames,), s, ascending."""
     steps: NDArray[np.int64] | None = None
     """(frames,): the step that each frame shows. None: frame k shows step k."""
+    held: NDArray[np.bool_] | None = None
+    """(frames, bodies): what a hand or a scaffold holds. None: nothing is held."""
     forces: FrameForces | None = None
     series: Sequence[Series] = ()
     captions: Sequence[tuple[int, str]] = ()
@@ -114,6 +116,8 @@ class Recording:
             raise ValueError("times must ascend")
         if self.steps is not None:
             _shaped(self.steps, (frames,), "steps")
+        if self.held is not None:
+            _shaped(self.held, (frames, bodies), "held")
         if self.forces is not None:
             _shaped(self.forces.offsets, (frames + 1,), "offsets of the forces")
             total = len(np.asarray(self.forces.bodies))
@@ -139,6 +143,7 @@ class Recording:
                 "times": None if self.times is None else packed(self.times.astype(np.float64)),
                 "poses": None if self.poses is None else packed(self.poses.astype(np.float32)),
                 "states": packed(self.states.astype(np.uint8)),
+                "held": None if self.held is None else packed(self.held.astype(np.uint8)),
                 "captions": [(int(frame), text) for frame, text in self.captions],
             },
             "forces": None if self.forces is None else _forces(self.forces),

@@ -10,6 +10,7 @@ import {
 } from "three";
 import { State } from "../contract.ts";
 import type { Film } from "../film.ts";
+import type { Palette } from "../palette.ts";
 import type { Look } from "../stage.ts";
 import type { Colours } from "./colours.ts";
 import type { Explode } from "./explode.ts";
@@ -18,6 +19,9 @@ import { edgesOf, facesOf } from "./solid.ts";
 
 /** How much of the ink is in the faces of the body that is marked. */
 const MARKED = 0.22;
+
+/** How much of the colour of held bodies is in their faces. */
+const HELD = 0.35;
 
 interface Block {
     faces: Mesh<ReturnType<typeof facesOf>, MeshLambertMaterial>;
@@ -66,10 +70,13 @@ export class Blocks {
     }
 
     private paintFaces({ faces }: Block, body: number, look: Look): void {
+        const { film } = this;
         const shown = this.shown(body, look);
         faces.visible = shown > 0;
         see(faces.material, shown);
         faces.material.color.copy(this.colours.of(look.frame, body, look.colours));
+        if (film.held(look.frame, body))
+            faces.material.color.lerp(new Color(look.colours.held), HELD);
         if (body === look.marked) faces.material.color.lerp(new Color(look.colours.ink), MARKED);
     }
 
@@ -78,10 +85,12 @@ export class Blocks {
         const state = film.state(look.frame, body);
         const ghost = this.shown(body, look) === 0;
         edges.visible = !ghost || film.kind === "plan";
-        const special = state === State.next || state === State.falling || body === look.marked;
-        const fixed = film.bodies[body].fixed;
-        const kind = ghost ? "line" : fixed ? "hatch" : state === State.falling ? "fall" : "ink";
-        edges.material.color.set(look.colours[kind]);
+        const held = film.held(look.frame, body);
+        const striking = state === State.next || state === State.falling || held;
+        const special = striking || body === look.marked;
+        edges.material.color.set(
+            look.colours[edgeColour(film.bodies[body].fixed, state, held, ghost)],
+        );
         edges.material.linewidth = special ? Math.max(2 * width, 2) : width;
     }
 
@@ -89,6 +98,13 @@ export class Blocks {
     private shown(body: number, { fade }: Look): number {
         return this.film.bodies[body].fixed ? 1 : Math.max(fade.of(body), 0);
     }
+}
+
+function edgeColour(fixed: boolean, state: State, held: boolean, ghost: boolean): keyof Palette {
+    if (ghost) return "line";
+    if (fixed) return "hatch";
+    if (held) return "held";
+    return state === State.falling ? "fall" : "ink";
 }
 
 function see(material: Material, opacity: number): void {

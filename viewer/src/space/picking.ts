@@ -20,12 +20,25 @@ export class Picking {
         this.halves = film.bodies.map(({ pieces }) => (pieces ?? []).map(halvesOf));
     }
 
-    /** The body seen first, of those that are there and of what the section keeps; -1 for none. */
+    /**
+     * The body seen first, of what the section keeps: one that is there before one of a plan that
+     * is gone, whose outline is still there; -1 for none.
+     */
     bodyAt(frame: number, ray: Ray, section: Plane | null): number {
         this.renew(frame);
+        const there = this.nearest(ray, section, (body) => this.isThere(frame, body));
+        if (there >= 0 || this.film.kind === "run") return there;
+        return this.nearest(ray, section, (body) => !this.isThere(frame, body));
+    }
+
+    private isThere(frame: number, body: number): boolean {
+        return this.film.state(frame, body) !== State.absent;
+    }
+
+    private nearest(ray: Ray, section: Plane | null, of: (body: number) => boolean): number {
         let [nearest, found] = [Infinity, -1];
         for (let body = 0; body < this.film.bodies.length; body++) {
-            if (this.film.state(frame, body) === State.absent) continue;
+            if (!of(body)) continue;
             const distance = this.distance(body, ray, section);
             if (distance < nearest) [nearest, found] = [distance, body];
         }

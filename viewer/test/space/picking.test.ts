@@ -29,6 +29,8 @@ test("the first body on the way is found, of those that are there", async () => 
     assert.equal(picks.bodyAt(1, down, null), 1, "what was taken away is not in the way");
     assert.equal(picks.bodyAt(2, down, null), 0);
     assert.equal(picks.bodyAt(0, ray([0, 0, 9], [0, 0, 1]), null), -1, "not behind the eye");
+    const past = ray([-9, 0, 1.5], [1, 0, 0]);
+    assert.equal(picks.bodyAt(1, past, null), 2, "nothing else is there: the outline of what was");
 });
 
 test("what the section takes away is not found", async () => {
