@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     )
     from drystone.body import Body, Contact, Piece, Solid
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
-    from drystone.planning import Blocked, Plan, TestRecord, plan
+    from drystone.plan_answer import Blocked, Plan, TestRecord
+    from drystone.planning import plan
     from drystone.scene import Scene
     from drystone.simulation import Run, simulate
     from drystone.statics import StaticsError
@@ -68,7 +69,7 @@ __all__ = [
 
 _MODULES = ("imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
-    "Blocked": "drystone.planning",
+    "Blocked": "drystone.plan_answer",
     "Body": "drystone.body",
     "Contact": "drystone.body",
     "ContactForce": "drystone.verdict",
@@ -77,7 +78,7 @@ _HOMES = {
     "LcpError": "drystone._core",
     "ManyPlans": "drystone.many",
     "Piece": "drystone.body",
-    "Plan": "drystone.planning",
+    "Plan": "drystone.plan_answer",
     "Run": "drystone.simulation",
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
@@ -89,7 +90,7 @@ _HOMES = {
     "Structure": "drystone.structure",
     "StepError": "drystone._core",
     "StepRecord": "drystone.world",
-    "TestRecord": "drystone.planning",
+    "TestRecord": "drystone.plan_answer",
     "Verdict": "drystone.verdict",
     "World": "drystone.world",
     "__version__": "drystone._core",

@@ -1,14 +1,26 @@
-"""The commands and their options. Anything heavy is imported inside the command that needs it."""
+"""The commands. Anything heavy is imported inside the command that needs it."""
 
 from __future__ import annotations
 
-from enum import Enum
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from drystone.cli.errors import InputError
+from drystone.cli.options import (
+    AsJson,
+    Cone,
+    ConeOrBoth,
+    Engine,
+    Facets,
+    File,
+    Formulation,
+    Picture,
+    Reuse,
+    StabilityTest,
+    Up,
+)
 from drystone.cli.scene import scene_app
 
 app = typer.Typer(
@@ -21,76 +33,6 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.add_typer(scene_app, name="scene")
-
-File = Annotated[
-    str,
-    typer.Argument(
-        metavar="SCENE",
-        help="A scene file, or a built-in scene with its parameters: "
-        "[bold]column:50[/], [bold]random_stack:84,seed=3[/].",
-    ),
-]
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
-Picture = Annotated[
-    Path | None, typer.Option("-o", "--output", help="Write a picture, .svg or .png.")
-]
-
-
-class StabilityTest(str, Enum):
-    """The stability tests of `plan`."""
-
-    reuse = "reuse"
-    reuse_dantzig = "reuse-dantzig"
-    lcp = "lcp"
-    lp = "lp"
-    lp_warm = "lp-warm"
-
-
-class Reuse(str, Enum):
-    """What a step of `simulate` takes over."""
-
-    full = "full"
-    motionless = "motionless"
-    none = "none"
-
-
-class Formulation(str, Enum):
-    """What the unknowns of a step of `simulate` are."""
-
-    velocity = "velocity"
-    acceleration = "acceleration"
-
-
-class Cone(str, Enum):
-    """Friction cones in space, within or around the round ones."""
-
-    inscribed = "inscribed"
-    circumscribed = "circumscribed"
-
-
-class ConeOrBoth(str, Enum):
-    """Those of `check`."""
-
-    inscribed = "inscribed"
-    circumscribed = "circumscribed"
-    both = "both"
-
-
-Facets = Annotated[int, typer.Option(min=3, help="In space: edges of a friction cone.")]
-
-
-class Engine(str, Enum):
-    """Where the scenes of a folder are planned."""
-
-    threads = "threads"
-    ray = "ray"
-
-
-class Up(str, Enum):
-    """Axes that may point up in a file."""
-
-    y = "y"
-    z = "z"
 
 
 @app.callback(invoke_without_command=True)

@@ -7,7 +7,8 @@ from itertools import groupby
 from pathlib import Path
 
 from drystone.cli.inputs import load_scene, page_path, picture_path, reporting_files
-from drystone.planning import Plan, plan
+from drystone.plan_answer import Plan
+from drystone.planning import plan
 from drystone.progress import ForcesProgress, PlanProgress
 
 

@@ -12,7 +12,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from drystone import _core
-from drystone.planning import Plan, Progress, plan
+from drystone.plan_answer import Plan
+from drystone.planning import Progress, plan
 from drystone.scene import Scene
 
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from drystone import scenes
 from drystone.paper.plain import plain_table
-from drystone.planning import Plan, plan
+from drystone.plan_answer import Plan
+from drystone.planning import plan
 
 if TYPE_CHECKING:
     from rich.table import Table

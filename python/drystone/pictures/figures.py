@@ -29,7 +29,7 @@ from drystone.verdict import Verdict, counted
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from drystone.planning import Plan
+    from drystone.plan_answer import Plan
 
 GHOST_MOVE = 0.35
 """How far the fastest corner of a falling block is shown moved, in typical block sizes."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from drystone.body import Solid
-    from drystone.planning import Plan
+    from drystone.plan_answer import Plan
     from drystone.scene import Scene
 
 GHOST_MOVE = 0.35

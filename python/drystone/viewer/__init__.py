@@ -18,7 +18,7 @@ from drystone.viewer.recording import FrameForces, Recording, Series
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from drystone.planning import Plan
+    from drystone.plan_answer import Plan
     from drystone.scene import Scene
 
 __all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page"]

@@ -16,7 +16,7 @@ from drystone.viewer.contract import ABSENT, FALLING, NEXT, PRESENT
 from drystone.viewer.recording import FrameForces, Recording, Series, rows_of
 
 if TYPE_CHECKING:
-    from drystone.planning import Plan
+    from drystone.plan_answer import Plan
     from drystone.scene import Scene
 
 Progress = Callable[[int, int], None]

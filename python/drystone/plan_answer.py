@@ -1,0 +1,223 @@
+"""The answer of `plan`: an order, what is held and whereto blocks leave, and the work it took."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any
+
+from drystone import _core
+from drystone.cones import CONES, FACETS
+from drystone.scene import Scene
+from drystone.verdict import Verdict, counted, shorten
+
+if TYPE_CHECKING:
+    from drystone.viewer import Page
+
+ENDINGS = {
+    "no_order": "No stable order exists",
+    "undecided": "No order found, though not every way to hold was tried",
+    "locked": "No order: blocks lock one another in",
+    "whole_falls": "No order: the complete assembly does not stand",
+    "test_limit": "No order yet: the limit of tests was reached",
+    "time_limit": "No order yet: the time was up",
+    "interrupted": "No order yet: interrupted",
+}
+"""What a plan's status says when there is no order."""
+
+
+@dataclass(frozen=True, slots=True)
+class TestRecord:
+    """One stability test of a plan."""
+
+    __test__ = False  # pytest: no test class, whatever its name
+
+    size: int
+    """Movable bodies in the sub-assembly tested."""
+    pivots: int
+    seconds: float
+    stable: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Blocked:
+    """A block that cannot leave along a straight line."""
+
+    name: str
+    ways: tuple[tuple[tuple[float, ...], tuple[str, ...]], ...]
+    """For each direction looked at, a unit vector, the bodies that are in the way."""
+
+    @property
+    def by(self) -> tuple[str, ...]:
+        """Every body that is in the way in some direction."""
+        return tuple(dict.fromkeys(name for _, names in self.ways for name in names))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """The answer of `plan`."""
+
+    found: bool
+    status: str
+    """"found", "no_order" (none exists), "whole_falls" (the complete assembly does not stand),
+    "test_limit", "time_limit" or "interrupted"; with `clear_path` also "locked" (some blocks lock
+    one another in), with `hold` also "undecided" (none was found, but a structure was given up
+    under some hold, as no hand was free to take it or there were too many to try)."""
+    order: tuple[str, ...]
+    """Names of the blocks, first removed first; empty if no order was found."""
+    reached: tuple[str, ...]
+    """The largest sub-assembly that was built up and stands."""
+    falls_next: tuple[str, ...]
+    """Without an order: the blocks any of which, added to `reached`, makes something fall."""
+    holds: tuple[tuple[str, ...], ...]
+    """Of every structure on the way the blocks that are held: `holds[k]` while all but the first
+    k blocks of `order` stand. Without an order: of `reached`, the last put up taken away first."""
+    directions: tuple[tuple[float, ...], ...]
+    """With `clear_path`: unit vectors along which the blocks of `order` leave, one by one; without
+    an order those of `reached`, the last put up first."""
+    blocked: tuple[Blocked, ...]
+    """With `clear_path` and no order: the blocks that lock one another in, or else those that
+    cannot be put on `reached` because something is in the way."""
+    tests: int
+    """Stability tests of proper sub-assemblies."""
+    pivots: int
+    """Pivots of all these tests together."""
+    test_seconds: float
+    """Wall time of all these tests together."""
+    seconds: float
+    """Wall time of the whole search."""
+    records: tuple[TestRecord, ...]
+    """One entry a test, in order."""
+    shortcuts: int
+    """Sub-assemblies known to fall or to lead nowhere without a test, by collapses found before."""
+    whole: Verdict | None
+    """The verdict on the complete assembly, which is checked first and counted apart; None if a
+    limit or an interrupt came before there was one."""
+    test: str
+    """The stability test used."""
+    scene: Scene = field(repr=False)
+    """The scene planned."""
+    cones: tuple[int, str] = (FACETS, CONES[0])
+    """In space: edges of a friction cone, and on which side of the round cone they lie."""
+
+    @classmethod
+    def _of(cls, core: _core.Plan, test: str, scene: Scene, cones: tuple[int, str]) -> Plan:
+        return cls(
+            core.found,
+            core.status,
+            tuple(core.order),
+            tuple(core.reached),
+            tuple(core.falls_next),
+            tuple(tuple(held) for held in reversed(core.held)),
+            tuple(way[: scene.dimension] for way in reversed(core.directions)),
+            tuple(
+                Blocked(name, tuple((way[: scene.dimension], tuple(by)) for way, by in ways))
+                for name, ways in core.blocked
+            ),
+            core.tests,
+            core.pivots,
+            core.test_seconds,
+            core.seconds,
+            tuple(TestRecord(r.size, r.pivots, r.seconds, r.stable) for r in core.records),
+            core.shortcuts,
+            None if core.whole is None else Verdict._of(core.whole, scene, cones[1]),
+            test,
+            scene,
+            cones,
+        )
+
+    @property
+    def hold_steps(self) -> list[tuple[str, str, int]]:
+        """("hold" or "release", name, k): what hands do before block k of `order` is taken away.
+
+        New holds come before releases. A block that is taken away while it is held is released by
+        that: the hand that holds it carries it off. Without an order the steps are those of taking
+        `reached` apart.
+        """
+        steps = [("hold", name, 0) for name in self.holds[0]] if self.holds else []
+        for k, (held, then) in enumerate(zip(self.holds, (*self.holds, ())[1:], strict=True)):
+            steps += [("hold", name, k) for name in then if name not in held]
+            steps += [("release", name, k) for name in held if name not in then]
+        return steps
+
+    def __str__(self) -> str:
+        work = (
+            f"{counted(self.tests, 'test')}, {counted(self.pivots, 'pivot')}, "
+            f"{1e3 * self.test_seconds:.3g} ms in tests of {1e3 * self.seconds:.3g} ms"
+        )
+        if self.found:
+            return (
+                f"Order found for {counted(len(self.order), 'block')}; {work}.\n"
+                f"Remove first: {shorten(self.order)}.{self._said_of_holds()}"
+            )
+        text = f"{ENDINGS.get(self.status, self.status)}; {work}."
+        text += f"\nLargest sub-assembly reached: {counted(len(self.reached), 'block')}"
+        if self.falls_next:
+            text += f"; it falls if any of these is added: {shorten(self.falls_next)}"
+        if self.blocked:
+            stuck = (f"{one.name} (by {shorten(one.by)})" for one in self.blocked)
+            text += f"; in the way is something of {shorten(stuck)}"
+        return text + "." + self._said_of_holds()
+
+    def _said_of_holds(self) -> str:
+        steps = [name for action, name, _ in self.hold_steps if action == "hold"]
+        if not steps:
+            return ""
+        at_once = max(len(held) for held in self.holds)
+        return f"\nTakes {counted(len(steps), 'hold')}, at most {at_once} at a time."
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the scene, in types that JSON knows."""
+        return {
+            "found": self.found,
+            "status": self.status,
+            "order": list(self.order),
+            "reached": list(self.reached),
+            "falls_next": list(self.falls_next),
+            "holds": [list(held) for held in self.holds] if any(self.holds) else [],
+            "hold_steps": [list(step) for step in self.hold_steps],
+            "directions": [list(direction) for direction in self.directions],
+            "blocked": [
+                {
+                    "name": one.name,
+                    "ways": [{"direction": list(way), "by": list(by)} for way, by in one.ways],
+                }
+                for one in self.blocked
+            ],
+            "test": self.test,
+            "tests": self.tests,
+            "shortcuts": self.shortcuts,
+            "pivots": self.pivots,
+            "test_seconds": self.test_seconds,
+            "seconds": self.seconds,
+            "records": [
+                {"size": r.size, "pivots": r.pivots, "seconds": r.seconds, "stable": r.stable}
+                for r in self.records
+            ],
+            "whole": None if self.whole is None else self.whole.to_dict(),
+        }
+
+    def draw(self, path: str | PathLike[str]) -> None:
+        """Write a picture of the order (.svg or .png), or a page to step through it (.html)."""
+        if fspath(path).lower().endswith(".html"):
+            self.view().save(path)
+            return
+        from drystone import pictures
+
+        pictures.save(pictures.plan_figure(self), path)
+
+    def view(self, progress: Callable[[int, int], None] | None = None) -> Page:
+        """A page that steps through the order, with the contact forces of every structure.
+
+        Save it, or let a notebook show it. The forces are computed here; `progress` is called with
+        (blocks placed, blocks in all) a few times a second.
+        """
+        from drystone import viewer
+
+        return viewer.plan_page(self, progress)
+
+    def _repr_svg_(self) -> str:
+        from drystone import pictures
+
+        return pictures.svg(pictures.plan_figure(self))
