@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +15,9 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 import drystone as ds
+from conftest import Ran
 from drystone.meshes import MeshError, MeshWarning, read_part
-from test_meshes import CUBE, box, l_shape, moments
+from test_meshes import CUBE, box, l_shape, moments, prism
 
 Points = NDArray[np.float64]
 
@@ -109,6 +112,23 @@ def test_a_clean_mesh_stays_what_it_is() -> None:
     assert [len(piece) for piece in part.pieces] == [8, 8]
 
 
+def test_what_has_exact_pieces_only_keeps_them() -> None:
+    """A gear of more planes than a decimated mesh is cut along, and no nearer one with fewer."""
+    angles = np.linspace(0, 2 * np.pi, 80, endpoint=False)
+    radii = np.where(np.arange(80) % 2, 1.0, 1.1)
+    gear = prism(list(zip(radii * np.cos(angles), radii * np.sin(angles), strict=True)), 0.2)
+    exact, part = read_part(gear), read_part(gear, simplify=1e-3)
+    assert part.simplification is None
+    assert [a.tobytes() for a in part.pieces] == [b.tobytes() for b in exact.pieces]
+
+
+def test_what_is_no_solid_is_no_simple_one() -> None:
+    with pytest.raises(MeshError, match="it is not closed"):
+        read_part(trimesh.Trimesh(CUBE.vertices, CUBE.faces[1:]), simplify=0.1)
+    with pytest.raises(MeshError, match="it has no volume"):
+        read_part(trimesh.Trimesh(CUBE.vertices * [1, 1, 0], CUBE.faces), simplify=0.1)
+
+
 def test_the_hull_of_a_scan_is_simplified() -> None:
     mesh = trimesh.creation.icosphere(6)
     with pytest.raises(MeshError, match="more than 2000: let it be simplified with simplify"):
@@ -144,4 +164,21 @@ def test_what_cannot_be_simplified_says_so(monkeypatch: pytest.MonkeyPatch) -> N
         read_part(CUBE, simplify=-1)
     monkeypatch.setitem(sys.modules, "manifold3d", None)
     with pytest.raises(MeshError, match=r'pip install "drystone\[meshes\]"'):
-        read_part(CUBE, simplify=0.01)
+        read_part(SCANS["cube"][0], simplify=0.01)
+
+
+def test_from_the_command_line(cli: Callable[..., Ran], tmp_path: Path) -> None:
+    mesh, bound, _ = SCANS["cube"]
+    mesh.copy().apply_scale(1000).export(tmp_path / "cube.ply")
+    arguments = ("import", tmp_path / "cube.ply", "--scale", "0.001")
+    ran = cli(*arguments)
+    assert (ran.status, ran.out) == (2, "")
+    assert "let them be simplified with simplify" in ran.err
+    ran = cli(*arguments, "--simplify", bound, "--json")
+    (body,) = json.loads(ran.out)["bodies"]
+    assert (ran.status, body["pieces"]) == (0, 1)
+    assert body["volume"] == pytest.approx(mesh.volume, rel=1e-6)
+    (tmp_path / "crate.xml").write_text("<mujoco/>")
+    ran = cli("import", tmp_path / "crate.xml", "--simplify", bound)
+    assert ran.status == 2
+    assert "simplify is for mesh files and folders of them" in ran.err

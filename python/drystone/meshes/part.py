@@ -14,7 +14,7 @@ from drystone.meshes.hull import hull_corners, hull_triangles, hull_volume
 from drystone.meshes.planes import at_least_planes
 from drystone.meshes.reading import read_triangles
 from drystone.meshes.simplify import Simplification, simplified
-from drystone.meshes.surface import repaired
+from drystone.meshes.surface import Surface, repaired
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -105,18 +105,13 @@ def part_of(
     simplify: float | None = None,
 ) -> Part:
     """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3)."""
-    if simplify is None:
-        _refuse_too_fine(vertices, triangles)
-    elif not 0 < simplify < np.inf:
-        raise MeshError(f"simplify must be a positive length in metres, not {simplify!r}")
+    if simplify is not None:
+        return _simplified(name, vertices, triangles, quietly, max_pieces, simplify)
+    _refuse_too_fine(vertices, triangles)
     surface = repaired(vertices, triangles.copy(), quietly)
     tolerance = FLAT * surface.diagonal
     volume, area = surface.volume, surface.area
-    if volume <= tolerance * area:
-        raise MeshError("it has no volume: a rigid body needs a thickness")
-    if simplify is not None:
-        pieces, note = simplified(surface, simplify, FEW_PLANES, max_pieces, MOST_CORNERS)
-        return Part(name, pieces, volume, [*surface.messages, note.message()], note)
+    _check_volume(surface)
     hull = hull_volume(surface.vertices)
     convex = hull <= (1 + CONVEX) * volume
     middle = surface.vertices.mean(axis=0)  # where numbers are exact to the last bits
@@ -136,6 +131,37 @@ def part_of(
     for piece in pieces:
         _check_corners(piece)
     return Part(name, pieces, volume, surface.messages)
+
+
+def _simplified(
+    name: str,
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.int64],
+    quietly: bool,
+    max_pieces: int,
+    simplify: float,
+) -> Part:
+    """A part whose surface moved by no more than `simplify` (metres).
+
+    What cannot be made simpler may have exact pieces: it is refused only if it has none.
+    """
+    if not 0 < simplify < np.inf:
+        raise MeshError(f"simplify must be a positive length in metres, not {simplify!r}")
+    surface = repaired(vertices, triangles.copy(), quietly)
+    _check_volume(surface)
+    try:
+        pieces, note = simplified(surface, simplify, FEW_PLANES, max_pieces, MOST_CORNERS)
+    except MeshError as refused:
+        try:
+            return part_of(name, vertices, triangles, quietly, max_pieces)
+        except MeshError:
+            raise refused from None
+    return Part(name, pieces, surface.volume, [*surface.messages, note.message()], note)
+
+
+def _check_volume(surface: Surface) -> None:
+    if surface.volume <= FLAT * surface.diagonal * surface.area:
+        raise MeshError("it has no volume: a rigid body needs a thickness")
 
 
 def _refuse_too_fine(vertices: NDArray[np.float64], triangles: NDArray[np.int64]) -> None:

@@ -100,9 +100,9 @@ def simplified(
                 )
                 return [piece + middle for piece in pieces], note
     raise MeshError(
-        f"no simplification of it into {most_pieces} convex pieces was found that moves its "
-        f"surface by less than {bound:g}: allow more with simplify or max_pieces, or take its "
-        "convex hull"
+        f"no simplification of it into {min(most_pieces, MOST_ATTEMPTED)} convex pieces or fewer "
+        f"was found that moves its surface by less than {bound:g}: allow more with simplify, or "
+        "take its convex hull"
     )
 
 
