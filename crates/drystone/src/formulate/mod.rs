@@ -17,6 +17,7 @@ mod block_set;
 mod cones;
 mod generator;
 mod hands;
+mod loads;
 mod part;
 
 pub use answers::{Acceleration, ContactForce};

@@ -12,17 +12,29 @@
 #[derive(Debug, Clone, PartialEq)]
 pub struct Collapse {
     moving: Vec<(usize, f64)>,
+    /// Absent blocks that may stop it, if the motion was carried on to the others (Lemma 4).
+    props: Option<Vec<usize>>,
 }
 
 impl Collapse {
     /// Takes the moving blocks with the work of their loads.
     pub fn new(moving: Vec<(usize, f64)>) -> Self {
-        Self { moving }
+        Self { moving, props: None }
+    }
+
+    /// Takes a motion of blocks there and not that no absent block but `props` is in the way of (Lemma 4, `plan/onward.rs`).
+    pub fn carried_on(moving: Vec<(usize, f64)>, props: Vec<usize>) -> Self {
+        Self { moving, props: Some(props) }
     }
 
     /// The blocks that move, with the work of each one's load.
     pub fn moving(&self) -> &[(usize, f64)] {
         &self.moving
+    }
+
+    /// If the motion was carried on to the blocks that were not there: those of them that may stop it.
+    pub fn props(&self) -> Option<&[usize]> {
+        self.props.as_deref()
     }
 
     /// The blocks whose loads drive the collapse.

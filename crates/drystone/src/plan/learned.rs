@@ -72,6 +72,12 @@ impl<'a> Learned<'a> {
         self.nogoods.iter().flatten()
     }
 
+    /// Dead ends met.
+    #[cfg(test)]
+    pub fn dead_ends(&self) -> usize {
+        self.dead_ends
+    }
+
     /// Numbers kept in all nogoods.
     #[cfg(test)]
     pub fn numbers(&self) -> usize {
@@ -209,6 +215,10 @@ impl Memory for Learned<'_> {
 
     fn blocked(&mut self, place: &Place<'_>, added: usize, blame: Vec<usize>) -> Back {
         self.step_out_of(Trap { blame, absent: vec![added] }, place)
+    }
+
+    fn begin_anew(&mut self) {
+        self.failed = vec![Vec::new()];
     }
 
     fn shortcuts(&self) -> usize {

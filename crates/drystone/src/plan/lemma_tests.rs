@@ -1,5 +1,6 @@
 //! Lemmas 1 and 2 against brute force, and memories that may keep little.
 
+use super::candidates::Upward;
 use super::learned::{Bounds, Learned};
 use super::memory::{Back, Memory, Place};
 use super::nogood::Nogood;
@@ -16,10 +17,10 @@ use crate::{
 };
 use std::{sync::atomic::AtomicBool, time::Instant};
 
-const AT_ONCE: Bounds = Bounds { patience: 0, for_a_block: 64, numbers: 1 << 20 };
+pub(super) const AT_ONCE: Bounds = Bounds { patience: 0, for_a_block: 64, numbers: 1 << 20 };
 
 /// Small stacks of which the whole stands. In most the stages on the way need not: many have no order.
-fn small(seeds: u64) -> impl Iterator<Item = Scene> {
+pub(super) fn small(seeds: u64) -> impl Iterator<Item = Scene> {
     (0..seeds).filter_map(|seed| {
         let (blocks, friction) = (5 + seed as usize % 5, if seed % 3 == 0 { 0.4 } else { 0.0 });
         let whole_only = |scene: &Scene| scene.bodies().len() <= blocks || crate::check::stands(scene).unwrap_or(false);
@@ -32,7 +33,7 @@ fn small(seeds: u64) -> impl Iterator<Item = Scene> {
 }
 
 /// All that a memory was told and what it knew, with every nogood on the way.
-struct Watched<'a> {
+pub(super) struct Watched<'a> {
     learned: Learned<'a>,
     /// Whether each sub-assembly, by its bits, can be grown to the whole.
     grows: &'a [bool],
@@ -44,7 +45,11 @@ fn bits(set: &BlockSet) -> usize {
     set.iter().map(|block| 1 << block).sum()
 }
 
-impl Watched<'_> {
+impl<'a> Watched<'a> {
+    pub fn new(learned: Learned<'a>, grows: &'a [bool]) -> Self {
+        Self { learned, grows, nogoods: 0, traps: 0 }
+    }
+
     /// A nogood covers no sub-assembly that can be grown to the whole.
     fn is_sound(&self, nogood: &Nogood, blocks: usize) {
         for (mask, &grows) in self.grows.iter().enumerate() {
@@ -87,6 +92,10 @@ impl Memory for Watched<'_> {
         self.learned.stood(place);
     }
 
+    fn begin_anew(&mut self) {
+        self.learned.begin_anew();
+    }
+
     fn blocked(&mut self, place: &Place<'_>, added: usize, blame: Vec<usize>) -> Back {
         let back = self.learned.blocked(place, added, blame);
         assert!(!self.grows[bits(place.current)], "{:?} can be grown to the whole", place.current);
@@ -106,7 +115,7 @@ impl Memory for Watched<'_> {
 }
 
 /// Which sub-assemblies can be grown to the whole: from the whole downward, by testing every one from scratch.
-fn growable(assembly: &Assembly) -> Vec<bool> {
+pub(super) fn growable(assembly: &Assembly) -> Vec<bool> {
     let blocks = assembly.blocks();
     let mut grows = vec![false; 1 << blocks];
     for mask in (0..1_usize << blocks).rev() {
@@ -122,7 +131,8 @@ fn searched(assembly: &Assembly, memory: &mut dyn Memory) -> (Outcome, Vec<usize
     let touching = Touching::new(assembly);
     let limits = Limits { tests: Some(5000), ..Limits::default() };
     let mut clock = Clock { limits, start: Instant::now(), monitor: &mut Quiet, whole_falls: &AtomicBool::new(false) };
-    let mut search = Search::new(&touching, None, memory);
+    let mut upward = Upward::new(&touching);
+    let mut search = Search::new(&touching, None, memory, &mut upward);
     let outcome = search.run(&mut Reuse::new(assembly), &mut clock).unwrap();
     let order = if outcome == Outcome::Found { search.placed().to_vec() } else { Vec::new() };
     (outcome, order, search.records.len())
@@ -136,7 +146,7 @@ fn nogoods_cover_no_sub_assembly_that_can_be_grown_to_the_whole() {
         let (touching, grows) = (Touching::new(&assembly), growable(&assembly));
         for patience in [0, 3] {
             let learned = Learned::new(&touching, Bounds { patience, ..AT_ONCE });
-            let mut watched = Watched { learned, grows: &grows, nogoods: 0, traps: 0 };
+            let mut watched = Watched::new(learned, &grows);
             let (outcome, ..) = searched(&assembly, &mut watched);
             assert_eq!(outcome == Outcome::Found, grows[0]);
             (nogoods, traps) = (nogoods + watched.nogoods, traps + watched.traps);

@@ -55,6 +55,9 @@ pub(super) trait Memory {
     /// Whether to step back from a sub-assembly on which `failed` cannot come next, or no candidate is left (None).
     fn back(&mut self, place: &Place<'_>, failed: Option<usize>) -> Option<Back>;
 
+    /// The search begins anew from the bare supports, with all that is known.
+    fn begin_anew(&mut self) {}
+
     /// Sub-assemblies called lost that were never tested.
     fn shortcuts(&self) -> usize {
         0

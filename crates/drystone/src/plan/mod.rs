@@ -5,6 +5,10 @@
 //! depth first, from the supports upward, one block at a time, and tests proper sub-assemblies only.
 
 mod ahead;
+mod balanced;
+#[cfg(test)]
+mod balanced_tests;
+mod candidates;
 mod clear_path;
 mod collapse;
 mod dead_end;
@@ -13,12 +17,14 @@ mod graph;
 mod grips;
 mod hitting;
 mod holding;
+mod in_turn;
 mod learned;
 #[cfg(test)]
 mod lemma_tests;
 mod memory;
 mod methods;
 mod nogood;
+mod onward;
 mod outcome;
 mod planning;
 mod replay;

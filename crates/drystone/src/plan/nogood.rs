@@ -1,7 +1,7 @@
 //! What cannot be on the way to the whole, in a form that covers many sub-assemblies at once.
 //!
 //! Call a sub-assembly *lost* if it falls or cannot be grown, block by block, to the whole. A *nogood* (Q, A) says that every
-//! sub-assembly with all of Q and none of A is lost. A collapse is one by Lemma 1 (`collapse.rs`), with any share of the
+//! sub-assembly with all of Q and none of A is lost. A collapse is one by Lemmas 1 and 4 (`collapse.rs`, `onward.rs`), with any share of the
 //! driving blocks that does work against all others as its Q; Lemma 2 (`learned.rs`) makes new ones of those it has.
 
 use super::collapse::Collapse;
@@ -45,13 +45,11 @@ impl Reason {
 }
 
 impl Nogood {
-    /// `fallen` falls by `collapse` (Lemma 1).
+    /// `fallen` falls by `collapse` (Lemma 1, or Lemma 4 if it was carried on).
     pub fn of_collapse(collapse: &Collapse, fallen: &BlockSet, touching: &Touching) -> Self {
-        let around = collapse.moving().iter().flat_map(|&(block, _)| touching.neighbours(block)).copied();
-        let mut absent: Vec<usize> = around.filter(|&block| !fallen.contains(block)).collect();
-        absent.sort_unstable();
-        absent.dedup();
-        let work: f64 = collapse.moving().iter().map(|(_, work)| work).sum();
+        let absent = collapse.props().map_or_else(|| around(collapse, fallen, touching), <[usize]>::to_vec);
+        let there = collapse.moving().iter().filter(|(block, _)| fallen.contains(*block));
+        let work: f64 = there.map(|(_, work)| work).sum();
         Self { weights: collapse.moving().to_vec(), least: WORK_LEFT * work, absent }
     }
 
@@ -101,6 +99,15 @@ impl Nogood {
         drivers.truncate(enough(&drivers, needed));
         Reason { blame: drivers.into_iter().map(|(block, _)| block).collect(), absent }
     }
+}
+
+/// The blocks outside a sub-assembly that touch a moving one.
+fn around(collapse: &Collapse, fallen: &BlockSet, touching: &Touching) -> Vec<usize> {
+    let around = collapse.moving().iter().flat_map(|&(block, _)| touching.neighbours(block)).copied();
+    let mut absent: Vec<usize> = around.filter(|&block| !fallen.contains(block)).collect();
+    absent.sort_unstable();
+    absent.dedup();
+    absent
 }
 
 /// How many of the first blocks weigh more than what is needed; all, if rounding leaves them short.

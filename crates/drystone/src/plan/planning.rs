@@ -1,17 +1,16 @@
 //! From a scene to a plan: the check of the complete assembly, and the search.
 
 use super::ahead::Ahead;
+use super::candidates::Upward;
 use super::clear_path::{Blocked, Paths};
 use super::dead_end::{dead_end, put_up};
 use super::grips::fewest_grips;
 use super::holding::Holding;
-use super::learned::{Bounds, Learned};
-use super::memory::Memory;
+use super::in_turn::{InTurn, first_turn, memory_for};
 use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, TestRecord};
 use super::search::{Clock, Search};
 use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test};
 use super::touching::Touching;
-use super::visited::Visited;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
 use crate::{
     check::{Verdict, check_blocks},
@@ -236,13 +235,6 @@ fn check_locked(assembly: &Assembly) -> Found {
     }
 }
 
-fn memory_for<'a>(touching: &'a Touching, limits: Limits, test: &dyn StabilityTest) -> Box<dyn Memory + 'a> {
-    match limits.shortcuts && test.explains() {
-        true => Box::new(Learned::new(touching, Bounds::default())),
-        false => Box::new(Visited::default()),
-    }
-}
-
 /// The search with nothing held, and the check of the whole.
 fn search_unheld(
     assembly: &Assembly,
@@ -251,21 +243,19 @@ fn search_unheld(
     test: &mut dyn StabilityTest,
     clock: &mut Clock<'_>,
 ) -> Result<Found, PlanError> {
-    let limits = clock.limits;
-    let mut memory = memory_for(touching, limits, test);
-    let mut search = Search::new(touching, paths, memory.as_mut());
-    let Checked { whole, time: whole_time, searched } = if check_beside(limits, assembly.blocks()) {
+    let blocks = assembly.blocks();
+    let mut search = InTurn::new(assembly, touching, paths, first_turn(blocks));
+    let Checked { whole, time: whole_time, searched } = if check_beside(clock.limits, blocks) {
         check_beside_search(assembly, &mut search, test, clock)
     } else {
         check_before_search(assembly, &mut search, test, clock)
     };
-    let Search { best: mut reached, mut records, .. } = search;
+    let InTurn { best: mut reached, mut records, mut shortcuts, .. } = search;
     let outcome = match (&whole, searched) {
         (Some(whole), _) if !whole.stable => Outcome::WholeFalls,
         (_, Err(PlanError::Interrupted)) => Outcome::Interrupted,
         (_, ended) => ended?,
     };
-    let mut shortcuts = memory.shortcuts();
     let falls_next = match outcome {
         Outcome::WholeFalls => {
             // Whatever a search beside the check has done was in vain.
@@ -290,7 +280,8 @@ fn search_with_hands(
 ) -> Result<(), PlanError> {
     let mut test = Holding::new(assembly, hands);
     let mut memory = memory_for(touching, clock.limits, &test);
-    let mut search = Search::new(touching, paths, memory.as_mut());
+    let mut upward = Upward::new(touching);
+    let mut search = Search::new(touching, paths, memory.as_mut(), &mut upward);
     search.records = std::mem::take(&mut found.records);
     let ended = search.run(&mut test, clock);
     let Search { best: reached, records, .. } = search;

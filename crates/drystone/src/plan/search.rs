@@ -1,5 +1,6 @@
 //! Depth-first search of the disassembly graph.
 
+use super::candidates::Candidates;
 use super::clear_path::Paths;
 use super::memory::{Back, Memory, Place};
 use super::outcome::{Limits, Monitor, Outcome, Progress, Stage, TestRecord};
@@ -43,38 +44,43 @@ impl Clock<'_> {
 pub(super) struct Search<'a> {
     touching: &'a Touching,
     memory: &'a mut dyn Memory,
+    candidates: &'a mut dyn Candidates,
     /// How blocks leave, if that has to be along a straight line.
     paths: Option<&'a Paths<'a>>,
     current: BlockSet,
     placed: Vec<usize>,
     /// Of each placed block, in `placed`.
     position: Vec<usize>,
-    /// How far each sub-assembly on the way has got with its candidates: a place in the upward order.
-    tried: Vec<usize>,
     pub best: Vec<usize>,
     pub records: Vec<TestRecord>,
 }
 
 impl<'a> Search<'a> {
-    pub fn new(touching: &'a Touching, paths: Option<&'a Paths<'a>>, memory: &'a mut dyn Memory) -> Self {
+    pub fn new(
+        touching: &'a Touching,
+        paths: Option<&'a Paths<'a>>,
+        memory: &'a mut dyn Memory,
+        candidates: &'a mut dyn Candidates,
+    ) -> Self {
         Self {
             touching,
             memory,
+            candidates,
             paths,
             current: BlockSet::empty(touching.blocks()),
             placed: Vec::new(),
             position: vec![0; touching.blocks()],
-            tried: vec![0],
             best: Vec::new(),
             records: Vec::new(),
         }
     }
 
-    /// Grows the current sub-assembly by the first candidate that stands, and steps back where none does.
+    /// Grows the current sub-assembly by the first candidate that stands, and steps back where none does. After
+    /// [`Outcome::TestLimit`] it can go on.
     pub fn run(&mut self, test: &mut dyn StabilityTest, clock: &mut Clock<'_>) -> Result<Outcome, PlanError> {
         let (blocks, mut shortcuts) = (self.touching.blocks(), 0);
         while self.placed.len() < blocks {
-            let Some(added) = self.next_candidate() else {
+            let Some(added) = self.candidates.next(&self.current) else {
                 if self.step_back(None, test) {
                     continue;
                 }
@@ -96,7 +102,11 @@ impl<'a> Search<'a> {
                     // What is known needs no test.
                     None => {}
                     Some(Outcome::TestLimit) if known => {}
-                    Some(outcome) => return Ok(outcome),
+                    Some(outcome) => {
+                        self.current.remove(added);
+                        self.candidates.put_back();
+                        return Ok(outcome);
+                    }
                 }
             }
             if last || !known && self.stands(test, added)? {
@@ -117,14 +127,6 @@ impl<'a> Search<'a> {
         &self.placed
     }
 
-    /// The next block from the supports upward that can be put on the current sub-assembly.
-    fn next_candidate(&mut self) -> Option<usize> {
-        let tried = self.tried.last_mut()?;
-        let (place, block) = self.touching.candidate(&self.current, *tried)?;
-        *tried = place + 1;
-        Some(block)
-    }
-
     /// Whether the current sub-assembly, which holds `added`, need not be tested.
     fn knows(&mut self, added: usize) -> bool {
         let place = Place { placed: &self.placed, position: &self.position, current: &self.current };
@@ -143,7 +145,9 @@ impl<'a> Search<'a> {
             test.descend();
             self.memory.stood(&place);
         } else if test.collapses_however_held().is_empty() {
-            self.memory.fell(&place, added, test.collapse());
+            let collapse = test.collapse();
+            collapse.iter().for_each(|collapse| self.candidates.fell(&self.current, added, collapse));
+            self.memory.fell(&place, added, collapse);
         } else {
             self.memory.fell_however_held(&place, added, test.collapses_however_held());
         }
@@ -170,7 +174,7 @@ impl<'a> Search<'a> {
     fn descend(&mut self, added: usize) {
         self.position[added] = self.placed.len();
         self.placed.push(added);
-        self.tried.push(0);
+        self.candidates.came(added);
         if self.placed.len() > self.best.len() {
             self.best.clone_from(&self.placed);
         }
@@ -178,15 +182,22 @@ impl<'a> Search<'a> {
 
     /// Steps back as far as the memory says, after `failed` did or after all candidates did. False if nothing is left.
     fn step_back(&mut self, mut failed: Option<usize>, test: &mut dyn StabilityTest) -> bool {
+        let mut anew = false;
         loop {
             let place = Place { placed: &self.placed, position: &self.position, current: &self.current };
             let keep = match self.memory.back(&place, failed) {
-                None => return true,
+                None => break,
                 Some(Back::NoOrder) => return false,
                 Some(Back::To(keep)) => keep,
             };
             failed = Some(self.retreat(keep, test));
+            anew |= self.candidates.begins_anew();
         }
+        if anew && !self.placed.is_empty() {
+            self.retreat(0, test);
+            self.memory.begin_anew();
+        }
+        true
     }
 
     /// Steps back to where some of the blocks that are in the way of `added` are gone.
@@ -199,12 +210,12 @@ impl<'a> Search<'a> {
 
     /// Takes all but the first blocks off again, and says which of them was the first to come.
     fn retreat(&mut self, keep: usize, test: &mut dyn StabilityTest) -> usize {
-        let first = self.placed[keep];
-        for block in self.placed.drain(keep..) {
+        let gone = self.placed.split_off(keep);
+        for &block in &gone {
             self.current.remove(block);
             test.backtrack();
         }
-        self.tried.truncate(keep + 1);
-        first
+        self.candidates.went(keep, &gone);
+        gone[0]
     }
 }

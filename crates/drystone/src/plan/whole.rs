@@ -1,7 +1,8 @@
 //! The check of the complete assembly, before the search or beside it.
 
+use super::in_turn::InTurn;
 use super::outcome::{Limits, Outcome, Progress, Stage};
-use super::search::{Clock, Search};
+use super::search::Clock;
 use super::stability::{PlanError, StabilityTest};
 use crate::{
     check::{Verdict, check_blocks_while},
@@ -39,7 +40,7 @@ pub(super) fn check_beside(limits: Limits, blocks: usize) -> bool {
 /// The check, and if the whole stands the search.
 pub(super) fn check_before_search(
     assembly: &Assembly,
-    search: &mut Search<'_>,
+    search: &mut InTurn<'_>,
     test: &mut dyn StabilityTest,
     clock: &mut Clock<'_>,
 ) -> Checked {
@@ -65,7 +66,7 @@ pub(super) fn check_before_search(
 /// finds that it does not; the caller then forgets what it did, so that the plan is the same.
 pub(super) fn check_beside_search(
     assembly: &Assembly,
-    search: &mut Search<'_>,
+    search: &mut InTurn<'_>,
     test: &mut dyn StabilityTest,
     clock: &mut Clock<'_>,
 ) -> Checked {
