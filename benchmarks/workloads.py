@@ -16,12 +16,16 @@ def add_in_order(scene: ds.Scene, assembly: Assembly, plan: ds.Plan) -> Workload
     """The planner's own questions: it grows the assembly block by block from the supports upward.
 
     A block with which something falls is taken off again. If the whole assembly falls, the planner
-    asks nothing; then the blocks are put on by height, whatever the answers.
+    asks nothing; then the blocks are put on by height, whatever the answers. If the paper's search
+    asks too much to be repeated, they are put on in the order that was planned.
     """
     if plan.status == "whole_falls":
         steps = tuple(Step((), (body,)) for body in _upward(scene, assembly)[:-1])
         return Workload("add", steps, planned=False, note="the whole assembly falls")
-    asked = _questions(scene)
+    ended, asked = _questions(scene)
+    if plan.found and ended == "test_limit":
+        steps = tuple(Step((), (body,)) for body in _planned(assembly, plan)[:0:-1])
+        return Workload("add", steps, planned=False, note=f"as planned: {len(asked)} tests are not enough")
     steps = []
     present: set[int] = set()
     for bodies, added in asked:
@@ -37,8 +41,7 @@ def remove_in_order(scene: ds.Scene, assembly: Assembly, plan: ds.Plan) -> Workl
 
     Without a plan the highest block goes first.
     """
-    index = {name: i for i, name in enumerate(assembly.names)}
-    order = [index[name] for name in plan.order] or _upward(scene, assembly)[::-1]
+    order = _planned(assembly, plan) or _upward(scene, assembly)[::-1]
     steps = [Step((), tuple(range(len(assembly))))]
     steps += [Step((body,), ()) for body in order[:-1]]
     return Workload("remove", tuple(steps), planned=False)
@@ -87,8 +90,14 @@ WORKLOADS: dict[str, Callable[[ds.Scene, Assembly, ds.Plan], Workload]] = {
 }
 
 
-def _questions(scene: ds.Scene, most: int = 5000) -> list[tuple[set[int], int]]:
-    """What the paper's search asks, without shortcuts, as (bodies, body added last)."""
+def _planned(assembly: Assembly, plan: ds.Plan) -> list[int]:
+    """The order that was planned, the first to leave first; empty if there is none."""
+    index = {name: i for i, name in enumerate(assembly.names)}
+    return [index[name] for name in plan.order]
+
+
+def _questions(scene: ds.Scene, most: int = 5000) -> tuple[str, list[tuple[set[int], int]]]:
+    """How the paper's search ends, without shortcuts, and what it asks: (bodies, body added last)."""
     asked: list[tuple[set[int], int]] = []
     structure = ds.Structure(scene)._core
     present: set[int] = set()
@@ -101,8 +110,8 @@ def _questions(scene: ds.Scene, most: int = 5000) -> list[tuple[set[int], int]]:
         present = now
         return stands, pivots
 
-    _core.plan(scene._core, listen, node_limit=most, shortcuts=False)
-    return asked
+    plan = _core.plan(scene._core, listen, node_limit=most, shortcuts=False)
+    return plan.status, asked
 
 
 def _upward(scene: ds.Scene, assembly: Assembly) -> list[int]:

@@ -457,6 +457,47 @@ fn a_monitor_is_told_before_every_test_and_can_stop_the_search() {
     assert_eq!(stop.told.len(), 8);
 }
 
+/// Tests of the first search's first turn, in which it finds nothing here.
+const FIRST_TURN: usize = 20_000;
+
+/// Checks from scratch some of the structures on the way up to what was reached.
+fn verify_some(scene: &Scene, plan: &Plan) {
+    let assembly = Assembly::new(scene).unwrap();
+    let block: HashMap<usize, usize> =
+        (0..assembly.blocks()).map(|block| (assembly.body_index(block), block)).collect();
+    for size in (1..=plan.reached.len()).step_by(27) {
+        let set = set_of(&assembly, plan.reached[..size].iter().map(|body| block[body]));
+        assert!(set.len() == size && check_blocks(&assembly, &set).stable, "the first {size}");
+    }
+}
+
+#[test]
+fn a_thousand_blocks_that_lean_on_one_another_have_an_order() {
+    let scene = scenes::random_stack(1000, 1, 0.0).unwrap();
+    let plan = planned(&scene, Test::Reuse);
+    assert_eq!((plan.outcome, plan.order.len()), (Outcome::Found, 1000));
+    assert!((FIRST_TURN..25_000).contains(&plan.records.len()), "{} tests", plan.records.len());
+    verify_some(&scene, &plan);
+    assert!(plan.reached.iter().eq(plan.order.iter().rev()));
+}
+
+#[test]
+fn a_budget_and_a_monitor_hold_for_both_searches() {
+    let scene = scenes::random_stack(500, 14, 0.0).unwrap();
+    let first = Limits { tests: Some(FIRST_TURN), ..Limits::default() };
+    let first = plan(&scene, Test::Reuse, first, &mut Quiet).unwrap();
+    assert_eq!((first.outcome, first.records.len()), (Outcome::TestLimit, FIRST_TURN));
+
+    let mut stop = Stop { after: FIRST_TURN + 1100, told: Vec::new() };
+    let stopped = plan(&scene, Test::Reuse, Limits::default(), &mut stop).unwrap();
+    assert_eq!((stopped.outcome, stopped.records.len()), (Outcome::Interrupted, FIRST_TURN + 1100));
+    assert!(stop.told.iter().map(|told| told.tests).is_sorted());
+    assert!(stopped.reached.len() > first.reached.len() && stopped.order.is_empty());
+    let answers = |plan: &Plan| plan.records[..FIRST_TURN].iter().map(|r| (r.size, r.outcome)).collect::<Vec<_>>();
+    assert_eq!(answers(&stopped), answers(&first));
+    verify_some(&scene, &stopped);
+}
+
 /// Stops the check of the whole at its nth question.
 struct StopWhole(usize);
 

@@ -2,8 +2,8 @@
 //!
 //! Both are complete and skip nothing that is not lost, so either answer is right; the orders differ. The second begins at
 //! an exact count of tests: the plan is the same on every machine, and what the first finds until then is the order of
-//! the paper's search (Lemma 3). From then on each has its turn, the next ones twice as long, so that neither makes more
-//! than four times the tests that the better one would make alone, once the first turn is over.
+//! the paper's search (Lemma 3). From then on each has its turn, the next ones twice as long, so that together they make
+//! about four times the tests of the better one at most.
 
 use super::balanced::Balanced;
 use super::candidates::Upward;

@@ -12,7 +12,8 @@ pub struct Limits {
     /// Most wall time.
     pub time: Option<Duration>,
     /// Answer without a test what the collapses found by earlier tests already answer (Lemmas 1 and 2 in `plan/collapse.rs`
-    /// and `plan/learned.rs`). The order found is the same; the paper's planner does without.
+    /// and `plan/learned.rs`). The order found is the same, unless it takes more than 20,000 tests, or 20 a block: then a
+    /// balanced search takes turns with the paper's (`plan/in_turn.rs`). The paper's planner does without.
     pub shortcuts: bool,
     /// Threads to use; None for those of the machine. The plan is the same on any number.
     pub threads: Option<usize>,
