@@ -1,13 +1,13 @@
 //! The sequence that keeps away from every collapse known.
 //!
-//! A collapse that nothing props is a balance `sum w_b <= 0` that every structure must keep (Lemma 4, `onward.rs`), w being
-//! the work of the blocks' loads in it. Loads with w > 0 drive it, those with w < 0 are the counterweights. What a
-//! structure T may still take is its slack `s_k(T) = -sum w_kb`. The complete assembly keeps all balances, and so it does with
+//! A collapse that nothing props is a balance `sum W_b <= 0` that every structure must keep (Lemma 4, `onward.rs`), W being
+//! the work of the blocks' loads in it. Loads with W > 0 drive it, those with W < 0 are the counterweights. What a
+//! structure T may still take is its slack `s_k(T) = -sum W_kb`. The complete assembly keeps all balances, and so it does with
 //! any share of its weight, by which a structure could grow from nothing to the whole. An order is such a way in steps of
 //! whole blocks. To stay inside, the block comes next that raises the least, or lowers the most,
 //!
 //! ```text
-//! phi(T) = - sum over k of log(EPSILON + s_k(T)),    by    d phi = sum over k of w_kb / (EPSILON + s_k(T))
+//! phi(T) = - sum over k of log(EPSILON + s_k(T)),    by    d phi = sum over k of W_kb / (EPSILON + s_k(T))
 //! ```
 //!
 //! the barrier of an interior-point method (Boyd and Vandenberghe, Convex Optimization, 2004, section 11.2). So counterweights come

@@ -166,6 +166,29 @@ fn with_ways_out_they_do_so_too() {
     }
 }
 
+/// A test that loses its digits.
+struct Lost;
+
+impl StabilityTest for Lost {
+    fn test(&mut self, blocks: &BlockSet, _added: usize) -> Result<TestOutcome, PlanError> {
+        Err(PlanError::NoAnswer { blocks: blocks.len(), reason: "for a test".into() })
+    }
+}
+
+#[test]
+fn in_numerical_trouble_of_the_balanced_search_the_first_goes_on() {
+    for scene in stacks().take(8).chain(small(60)) {
+        let assembly = Assembly::new(&scene).unwrap();
+        let touching = Touching::new(&assembly);
+        let mut search = InTurn::new(&assembly, &touching, None, 3);
+        search.onward = |_| Box::new(Lost);
+        let outcome = within(20_000, |clock| search.run(&mut Reuse::new(&assembly), clock)).unwrap();
+        let alone = in_turn(&assembly, None, 20_000);
+        assert_eq!(outcome, alone.0);
+        assert!(outcome != Outcome::Found || search.best == alone.1);
+    }
+}
+
 /// The order that a search finds if it stops after every so many tests, and its tests.
 fn stopping(
     assembly: &Assembly,

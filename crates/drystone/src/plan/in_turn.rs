@@ -35,6 +35,8 @@ pub(super) struct InTurn<'a> {
     touching: &'a Touching,
     paths: Option<&'a Paths<'a>>,
     turn: usize,
+    /// The test of the balanced search.
+    pub onward: fn(&'a Assembly) -> Box<dyn StabilityTest + 'a>,
     /// The largest sub-assembly put up.
     pub best: Vec<usize>,
     pub records: Vec<TestRecord>,
@@ -44,7 +46,16 @@ pub(super) struct InTurn<'a> {
 impl<'a> InTurn<'a> {
     /// `turn` is the number of tests of the first turn.
     pub fn new(assembly: &'a Assembly, touching: &'a Touching, paths: Option<&'a Paths<'a>>, turn: usize) -> Self {
-        Self { assembly, touching, paths, turn, best: Vec::new(), records: Vec::new(), shortcuts: 0 }
+        Self {
+            assembly,
+            touching,
+            paths,
+            turn,
+            onward: |assembly| Box::new(Onward::new(assembly)),
+            best: Vec::new(),
+            records: Vec::new(),
+            shortcuts: 0,
+        }
     }
 
     /// Searches until there is an answer, or no more time.
@@ -68,15 +79,20 @@ impl<'a> InTurn<'a> {
         clock: &mut Clock<'_>,
     ) -> Result<Outcome, PlanError> {
         let mut memory = Learned::new(self.touching, Bounds { patience: 0, ..Bounds::default() });
-        let (mut balanced, mut onward) = (Balanced::new(self.touching), Onward::new(self.assembly));
+        let (mut balanced, mut onward) = (Balanced::new(self.touching), (self.onward)(self.assembly));
         let mut second = Search::new(self.touching, self.paths, &mut memory, &mut balanced);
         let mut turn = self.turn;
         let ended = loop {
             hand_over(first, &mut second);
-            let ended = take_turn(&mut second, &mut onward, clock, turn);
+            let ended = take_turn(&mut second, onward.as_mut(), clock, turn);
             hand_over(&mut second, first);
-            turn = turn.saturating_mul(2);
-            if let Some(ended) = ended.or_else(|| take_turn(first, test, clock, turn)) {
+            turn = match ended {
+                None => turn.saturating_mul(2),
+                // Numerical trouble: the first goes on alone, on a basis of its own.
+                Some(Err(PlanError::NoAnswer { .. })) => usize::MAX,
+                Some(ended) => break ended,
+            };
+            if let Some(ended) = take_turn(first, test, clock, turn) {
                 break ended;
             }
         };
