@@ -24,16 +24,17 @@ def add_in_order(scene: ds.Scene, assembly: Assembly, plan: ds.Plan) -> Workload
         return Workload("add", steps, planned=False, note="the whole assembly falls")
     ended, asked = _questions(scene)
     if plan.found and ended == "test_limit":
-        steps = tuple(Step((), (body,)) for body in _planned(assembly, plan)[:0:-1])
-        return Workload("add", steps, planned=False, note=f"as planned: {len(asked)} tests are not enough")
-    steps = []
+        one_by_one = tuple(Step((), (body,)) for body in _planned(assembly, plan)[:0:-1])
+        note = f"as planned: the paper's search asks more than {len(asked)}"
+        return Workload("add", one_by_one, planned=False, note=note)
+    questions: list[Step] = []
     present: set[int] = set()
     for bodies, added in asked:
         parent = bodies - {added}
-        steps.append(Step(tuple(sorted(present - parent)), tuple(sorted(bodies - present))))
+        questions.append(Step(tuple(sorted(present - parent)), tuple(sorted(bodies - present))))
         present = bodies
     note = "" if plan.found else f"the planner ended with {plan.status}"
-    return Workload("add", tuple(steps), planned=True, note=note)
+    return Workload("add", tuple(questions), planned=True, note=note)
 
 
 def remove_in_order(scene: ds.Scene, assembly: Assembly, plan: ds.Plan) -> Workload:
@@ -97,7 +98,7 @@ def _planned(assembly: Assembly, plan: ds.Plan) -> list[int]:
 
 
 def _questions(scene: ds.Scene, most: int = 5000) -> tuple[str, list[tuple[set[int], int]]]:
-    """How the paper's search ends, without shortcuts, and what it asks: (bodies, body added last)."""
+    """How the paper's search ends, without shortcuts, and its (bodies, body added last)."""
     asked: list[tuple[set[int], int]] = []
     structure = ds.Structure(scene)._core
     present: set[int] = set()
