@@ -13,6 +13,11 @@ impl BlockRows {
         Self { components: components.len(), all: (0..components.len() * blocks).collect() }
     }
 
+    /// Number of movable blocks.
+    pub fn blocks(&self) -> usize {
+        self.all.len() / self.components
+    }
+
     /// Rows of a movable block: the components of its wrench.
     pub fn of(&self, block: usize) -> &[usize] {
         &self.all[self.components * block..self.components * (block + 1)]

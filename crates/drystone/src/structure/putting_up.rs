@@ -5,11 +5,14 @@ use crate::formulate::{Assembly, BlockRows, BlockSet};
 use drystone_lcp::cone::{ConeSolver, Membership};
 
 /// Blocks put on what falls already until the solver is asked again: every answer costs a pass over all that falls, and
-/// more blocks at once, which nothing holds yet, tie in many pivots.
-const TOGETHER: usize = 4;
+/// more blocks at once, which nothing holds yet, tie in many pivots. Measured on the arch of 200 voussoirs, where 4 are best (16
+/// take an eighth longer), and on 1000 random blocks, where 16 are (4 take a quarter longer).
+fn together(blocks: usize) -> usize {
+    (blocks / 64).max(4)
+}
 
 /// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, or about
-/// every fourth where what is there falls in between, as half an arch does. `before` is told each block before it comes;
+/// some at a time where what is there falls in between, as half an arch does. `before` is told each block before it comes;
 /// stops, with false, as soon as that says so.
 pub(crate) fn put_up(
     solver: &mut ConeSolver,
@@ -19,7 +22,7 @@ pub(crate) fn put_up(
 ) -> bool {
     let (mut falls, mut new) = (false, 0);
     for block in blocks {
-        if new == TOGETHER || new > 0 && !falls {
+        if new == together(rows.blocks()) || new > 0 && !falls {
             falls = solver.decide() == Membership::Outside;
             new = 0;
         }
@@ -32,8 +35,12 @@ pub(crate) fn put_up(
     true
 }
 
-/// Blocks that fell one after the other until no more are tried: what is there may fall already.
-const PATIENCE: usize = 8;
+/// Blocks that fell one after the other until no more are tried: what is there may fall already. A try costs a pass over
+/// what is there. Of 84 random blocks 8 are better than 2 (0.35 ms in place of 0.52 until all are there and gone again),
+/// of 1000 with friction 2 better than 8 (98 ms in place of 300).
+fn patience(blocks: usize) -> usize {
+    (640 / blocks.max(1)).clamp(2, 8)
+}
 
 /// A solver on the way up.
 #[derive(Debug)]
@@ -62,7 +69,7 @@ impl PuttingUp<'_> {
         waiting.iter().for_each(|&block| there.remove(block));
         let (mut place, mut fell) = (0, Vec::new());
         while waiting.len() > 1
-            && fell.len() < PATIENCE
+            && fell.len() < patience(self.rows.blocks())
             && let Some(&block) = waiting.get(place)
         {
             if fell.contains(&block) || !self.touches(block, &there) {
