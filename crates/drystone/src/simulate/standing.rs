@@ -11,6 +11,7 @@
 //! that differs solves from there (Theorem 1). Where something falls at once this tells nothing.
 
 use super::{
+    motionless::motionless_bodies,
     moving::{Moving, axes, components, is_zero, masses},
     reuse::Reuse,
     solve::{Given, Motion, judge},
@@ -56,7 +57,9 @@ impl<S: Moving> World<S> {
         start.indices.iter().zip(&start.z).for_each(|(&row, &z)| p[row] = z);
         let velocities = contacts.velocities(given.free, &self.inverse_mass, |row| p[row]);
         let residual = self.residual(given, &velocities, &p);
-        if residual > Settings::default().residual {
+        // Beside large impulses a residual that may stand could still move a small body.
+        let still = motionless_bodies(&self.scene, &velocities, self.options.dt);
+        if residual > Settings::default().residual || still.contains(&false) {
             return None;
         }
         let none = vec![0.0; contacts.approaches().len()];
