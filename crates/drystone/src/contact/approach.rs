@@ -202,6 +202,50 @@ impl<S: Approaching> ApproachFinder<S> {
     }
 }
 
+/// Finds where two convex bodies first meet on straight ways, from all faces of their Minkowski difference: that which is entered
+/// last, or, of those on which they touch already, that which closes most slowly.
+pub(super) struct FirstMet<P> {
+    tolerance: f64,
+    /// Times of entry and exit, in steps.
+    enter: f64,
+    leave: f64,
+    last: Option<P>,
+    touching: Option<(f64, P)>,
+}
+
+impl<P: Copy> FirstMet<P> {
+    /// Within this tolerance, metres, they touch.
+    pub fn new(tolerance: f64) -> Self {
+        Self { tolerance, enter: 0.0, leave: 1.0, last: None, touching: None }
+    }
+
+    /// Takes a face with its gap (m) and what is added to it in the step (m). None if they never meet because of it.
+    pub fn see(&mut self, face: P, gap: f64, opening: f64) -> Option<()> {
+        if gap > -self.tolerance && opening >= 0.0 {
+            return None;
+        }
+        if gap > 0.0 {
+            let time = gap / -opening;
+            if self.last.is_none() || time > self.enter {
+                self.last = Some(face);
+            }
+            self.enter = self.enter.max(time);
+        } else if opening > 0.0 {
+            self.leave = self.leave.min(-gap / opening);
+        }
+        if gap.abs() <= self.tolerance && self.touching.is_none_or(|(slowest, _)| opening > slowest) {
+            self.touching = Some((opening, face));
+        }
+        Some(())
+    }
+
+    /// The face, and the time halfway between entry and exit; None if they do not meet within the step.
+    pub fn found(self) -> Option<(P, f64)> {
+        let face = self.touching.map(|(_, face)| face).or(self.last).filter(|_| self.enter < self.leave)?;
+        Some((face, 0.5 * (self.enter + self.leave)))
+    }
+}
+
 /// Radians: beyond this the straight ways of the points say nothing about where they go.
 pub const MOST_TURN: f64 = 1.0;
 

@@ -13,7 +13,7 @@
 
 use super::{
     ContactId, Feature,
-    approach::{Approach, Approaching, Meeting, Near},
+    approach::{Approach, Approaching, FirstMet, Meeting, Near},
     narrow_phase::{Outline, greatest_separation, most_opposed},
 };
 use crate::{
@@ -186,29 +186,14 @@ impl Corners<'_> {
     /// Minkowski difference which is entered last, or one on which they touch already. None if they do not meet.
     fn first_met(&self) -> Option<(usize, usize)> {
         let drift = self.drift();
-        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-        let (mut last, mut touching) = (None, None::<(f64, (usize, usize))>);
+        let mut met = FirstMet::new(self.near.tolerance);
         for (owner, face) in [0, 1].into_iter().flat_map(|owner| self.faces(owner).map(move |face| (owner, face))) {
             let end = self.end(owner, face, self.closest(owner, face));
             // How fast the other body moves outwards, seen from the face's owner.
-            let speed = if owner == 0 { end.normal.dot(drift) } else { -end.normal.dot(drift) };
-            if end.gap > -self.near.tolerance && speed >= 0.0 {
-                return None;
-            }
-            if end.gap > 0.0 {
-                let time = end.gap / -speed;
-                if last.is_none() || time > enter {
-                    last = Some((owner, face));
-                }
-                enter = enter.max(time);
-            } else if speed > 0.0 {
-                leave = leave.min(-end.gap / speed);
-            }
-            if end.gap.abs() <= self.near.tolerance && touching.is_none_or(|(slowest, _)| speed > slowest) {
-                touching = Some((speed, (owner, face)));
-            }
+            let opening = if owner == 0 { end.normal.dot(drift) } else { -end.normal.dot(drift) };
+            met.see((owner, face), end.gap, opening)?;
         }
-        touching.map(|(_, met)| met).or(last).filter(|_| enter < leave)
+        met.found().map(|(face, _)| face)
     }
 
     fn faces(&self, owner: usize) -> std::ops::Range<usize> {

@@ -11,7 +11,7 @@
 
 use super::{
     ContactId, Feature,
-    approach::{Approach, ApproachOf, Approaching, Meeting, Near},
+    approach::{Approach, ApproachOf, Approaching, FirstMet, Meeting, Near},
     id::{SolidFeature, SolidPart},
     separation::{Between, Separation, along_edges, along_faces, planes},
     shared_face::{SharedCorner, facing_corners},
@@ -134,10 +134,6 @@ impl Pieces<'_> {
     /// no point before the face says how deep they are in one another.
     fn deepest(&self, plane: &Separation) -> Option<Point> {
         let [a, b] = self.pieces;
-        let lowest = |of: &Polyhedron, normal: Vector3| {
-            let height = |k: usize| normal.dot(of.vertices()[k]);
-            (1..of.vertices().len()).fold(0, |low, k| if height(k) < height(low) { k } else { low })
-        };
         let point = |parts: [SolidPart; 2], at: Vector3| Point {
             features: self.named(parts),
             at,
@@ -146,11 +142,11 @@ impl Pieces<'_> {
         };
         match plane.between {
             Between::FaceOfA(face) => {
-                let corner = lowest(b, plane.normal);
+                let corner = b.lowest(plane.normal);
                 Some(point([SolidPart::Face(face), SolidPart::Corner(corner)], b.vertices()[corner] + self.offset))
             }
             Between::FaceOfB(face) => {
-                let corner = lowest(a, -plane.normal);
+                let corner = a.lowest(-plane.normal);
                 Some(point([SolidPart::Corner(corner), SolidPart::Face(face)], a.vertices()[corner]))
             }
             Between::Edges(..) => {
@@ -168,29 +164,11 @@ impl Pieces<'_> {
     /// overlap. None if they do not meet within the step.
     fn first_met(&self) -> Option<(Separation, Vector3)> {
         let drift = self.drift();
-        let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-        let (mut last, mut touching) = (None, None::<(f64, Separation)>);
+        let mut met = FirstMet::new(self.near.tolerance);
         for plane in planes(self.pieces[0], self.pieces[1], self.offset) {
-            let speed = plane.normal.dot(drift);
-            if plane.distance > -self.near.tolerance && speed >= 0.0 {
-                return None;
-            }
-            if plane.distance > 0.0 {
-                let time = plane.distance / -speed;
-                if last.is_none() || time > enter {
-                    last = Some(plane);
-                }
-                enter = enter.max(time);
-            } else if speed > 0.0 {
-                leave = leave.min(-plane.distance / speed);
-            }
-            let touches = plane.distance.abs() <= self.near.tolerance;
-            if touches && touching.is_none_or(|(slowest, _)| speed > slowest) {
-                touching = Some((speed, plane));
-            }
+            met.see(plane, plane.distance, plane.normal.dot(drift))?;
         }
-        let plane = touching.map(|(_, plane)| plane).or(last).filter(|_| enter < leave)?;
-        Some((plane, 0.5 * (enter + leave) * drift))
+        met.found().map(|(plane, middle)| (plane, middle * drift))
     }
 
     /// How far the second centroid goes relative to the first.

@@ -83,8 +83,7 @@ pub(super) fn facing_corners(
     tolerance: f64,
 ) -> Vec<SharedCorner> {
     let plane = Plane::of(reference, face);
-    let height = |k: usize| plane.normal.dot(other.vertices()[k]);
-    let lowest = (1..other.vertices().len()).fold(0, |low, k| if height(k) < height(low) { k } else { low });
+    let lowest = other.lowest(plane.normal);
     let at_lowest = (0..other.faces().len()).filter(|&face| other.faces()[face].contains(&lowest));
     let opposed = most_opposed(other, at_lowest, plane.normal);
     let near = other.faces()[opposed].iter().map(|&k| plane.flat(k, other.vertices()[k] + offset)).collect();

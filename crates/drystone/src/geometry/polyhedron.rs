@@ -172,6 +172,12 @@ impl Polyhedron {
         self.faces.iter().flat_map(fan)
     }
 
+    /// The corner that reaches least far along a direction; of equal ones the first.
+    pub(crate) fn lowest(&self, direction: Vector3) -> usize {
+        let height = |k: usize| direction.dot(self.vertices[k]);
+        (1..self.vertices.len()).fold(0, |low, k| if height(k) < height(low) { k } else { low })
+    }
+
     /// Extent along a direction: the least and the greatest coordinate.
     pub fn span(&self, direction: Vector3) -> [f64; 2] {
         let along = self.vertices.iter().map(|v| direction.dot(*v));
