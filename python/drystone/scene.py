@@ -211,7 +211,8 @@ class Scene:
 
         `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface in
         a frame that stands at `position`, turned by `orientation`. `scale` makes metres of its
-        lengths. `hull` takes its convex hull instead. `simplify` (metres) makes few pieces of a
+        lengths. A file of several objects is one body too: `imports.load` makes one of each.
+        `hull` takes its convex hull instead. `simplify` (metres) makes few pieces of a
         scan of many triangles by moving its surface by no more than that; the body weighs what the
         mesh does, its density being changed by as much as its volume was. What is mended or
         simplified is said in a MeshWarning.

@@ -18,6 +18,7 @@ from drystone.cli.options import (
     Formulation,
     Picture,
     Reuse,
+    Split,
     StabilityTest,
     Up,
 )
@@ -211,7 +212,7 @@ def import_(
         typer.Argument(
             metavar="FILE",
             help="A COMPAS assembly (.json), a folder of meshes or its manifest.json, MJCF (.xml), "
-            "URDF, or one mesh (.obj, .stl, .ply, .off, .gltf, .glb).",
+            "URDF, or a mesh file (.obj, .stl, .ply, .off, .gltf, .glb).",
         ),
     ],
     output: Annotated[
@@ -245,6 +246,13 @@ def import_(
         float | None,
         typer.Option(help="Metres that surfaces of scanned meshes may move, to make them simple."),
     ] = None,
+    split: Annotated[
+        Split | None,
+        typer.Option(
+            help="What of a mesh file becomes a body: its objects (if it has none, its groups), "
+            "its groups, or all of it as one (none)."
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> int:
     """Make a scene of another tool's assembly, and say what was taken and what was left out."""
@@ -264,6 +272,7 @@ def import_(
         tolerance=tolerance,
         max_pieces=max_pieces,
         simplify=simplify,
+        split=None if split is None else split.value,
     )
 
 

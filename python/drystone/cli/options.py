@@ -77,3 +77,11 @@ class Up(str, Enum):
 
     y = "y"
     z = "z"
+
+
+class Split(str, Enum):
+    """What of a mesh file becomes a body."""
+
+    objects = "objects"
+    groups = "groups"
+    none = "none"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -102,11 +102,18 @@ class Collected:
     def fix(self, names: Iterable[str]) -> None:
         """Fix bodies by name; FormatError for a name that is not there."""
         wanted = set(names)
-        unknown = wanted - {body.name for body in self.bodies}
-        if unknown:
-            known = ", ".join(body.name for body in self.bodies[:20])
-            raise FormatError(f"no body is called {min(unknown)!r}: there are {known}")
+        self._refuse_unknown(wanted)
         self.bodies = [replace(b, fixed=b.fixed or b.name in wanted) for b in self.bodies]
+
+    def set_densities(self, densities: Mapping[str, float]) -> None:
+        """Give bodies densities (kg/m^3) by name; FormatError for a name that is not there."""
+        self._refuse_unknown(densities)
+        self.bodies = [replace(b, density=densities.get(b.name, b.density)) for b in self.bodies]
+
+    def set_frictions(self, frictions: Mapping[str, float]) -> None:
+        """Give bodies coefficients by name; FormatError for a name that is not there."""
+        self._refuse_unknown(frictions)
+        self.bodies = [replace(b, friction=frictions.get(b.name, b.friction)) for b in self.bodies]
 
     def measure(self) -> None:
         """Note the extent of the bodies so far."""
@@ -138,6 +145,12 @@ class Collected:
         self.bodies = [
             replace(b, pieces=[scale * p @ rotation.T for p in b.pieces]) for b in self.bodies
         ]
+
+    def _refuse_unknown(self, names: Iterable[str]) -> None:
+        unknown = set(names) - {body.name for body in self.bodies}
+        if unknown:
+            known = ", ".join(body.name for body in self.bodies[:20])
+            raise FormatError(f"no body is called {min(unknown)!r}: there are {known}")
 
     def _points(self) -> NDArray[np.float64]:
         return np.concatenate([piece for body in self.bodies for piece in body.pieces])

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drystone.imports import compas, folder, mjcf, urdf
+from drystone.imports import compas, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.fields import read_json
 from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
-from drystone.meshes import MOST_PIECES, MeshError, read_part
+from drystone.meshes import MOST_PIECES, MeshError
 from drystone.meshes.reading import ENDINGS
 
 if TYPE_CHECKING:
     from drystone.scene import Scene
 
+
+FRICTION = 0.5
+"""Coefficient of bodies without their own."""
 
 TOUCHING = 1e-6
 """Bodies touch within this share of the diagonal of all of them, unless said otherwise: ten times
@@ -30,7 +33,8 @@ class Imported:
     """A scene out of another tool's file, and what became of everything in the file."""
 
     format: str
-    """"COMPAS assembly", "folder of parts", "manifest", "mesh", "MJCF" or "URDF"."""
+    """"COMPAS assembly", "folder of parts", "manifest", "mesh", "mesh of objects", "MJCF" or
+    "URDF"."""
     scene: Scene
     bodies: list[ImportedBody]
     left_out: list[LeftOut]
@@ -62,24 +66,30 @@ def load(
     *,
     scale: float = 1.0,
     up: str = "z",
-    friction: float = 0.5,
-    density: float | None = None,
+    friction: float | Mapping[str, float] = FRICTION,
+    density: float | Mapping[str, float] | None = None,
     gravity: Sequence[float] | None = None,
     fixed: Iterable[str] = (),
     ground: bool = False,
     tolerance: float | None = None,
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
+    split: str | None = None,
 ) -> Imported:
-    """A COMPAS assembly, a folder of part meshes, a manifest, one mesh, MJCF or URDF as a scene.
+    """A COMPAS assembly, a folder of part meshes, a manifest, a mesh file, MJCF or URDF as a scene.
 
     `scale` makes metres of the file's lengths, `up` is the axis ("y" or "z") that points up in
     it. `friction` is for bodies without their own, `density` (kg/m^3) for all bodies, instead of
-    what the file says (1000 if it says nothing); `gravity` (m/s^2, z up) likewise. Bodies named in
-    `fixed` never move; `ground` lays a fixed box under all. `tolerance` is the scene's
-    `contact_tolerance`, in metres: how far apart bodies of an inexact file may be and still touch,
-    by default 1e-6 of the diagonal of all. `simplify` (metres) lets the surface of mesh files
-    move by so much, so that scans become few pieces: see `Scene.add_mesh`.
+    what the file says (1000 if it says nothing); `gravity` (m/s^2, z up) likewise. Either of the
+    first two may be a dict by names of bodies, for these alone. Bodies named in `fixed` never move;
+    `ground` lays a fixed box under all. `tolerance` is the scene's `contact_tolerance`, in metres:
+    how far apart bodies of an inexact file may be and still touch, by default 1e-6 of the diagonal
+    of all. `simplify` (metres) lets the surface of mesh files move by so much, so that scans become
+    few pieces: see `Scene.add_mesh`.
+
+    A mesh file of several objects (`o` of OBJ, nodes of glTF) becomes a body for each, called like
+    it; so do the groups (`g`) of an OBJ file without objects. `split="groups"` takes each group as
+    a body, `split="none"` all as one.
 
     Raises FormatError or MeshError, naming the file and the fix, SceneError for bodies that do not
     make a scene (two of them overlap), and OSError for a file that cannot be read.
@@ -91,7 +101,8 @@ def load(
         raise FormatError(f"scale must be a positive number, not {scale!r}")
     collected = Collected()
     try:
-        kind = _read(path, collected, max_pieces, None if simplify is None else simplify / scale)
+        simplify = None if simplify is None else simplify / scale
+        kind = _read(path, collected, max_pieces, simplify, split)
     except (FormatError, MeshError) as error:
         if str(path) in str(error):
             raise
@@ -104,21 +115,28 @@ def load(
     if ground:
         collected.lay_ground()
     collected.fix(fixed)
+    if isinstance(density, Mapping):
+        collected.set_densities(density)
+        density = None
+    if isinstance(friction, Mapping):
+        collected.set_frictions(friction)
+        friction = FRICTION
     scene = _scene(collected, friction, density, gravity, tolerance)
     return Imported(kind, scene, collected.bodies, collected.left_out, collected.messages)
 
 
-def _read(path: Path, collected: Collected, max_pieces: int, simplify: float | None) -> str:
+def _read(
+    path: Path, collected: Collected, max_pieces: int, simplify: float | None, split: str | None
+) -> str:
     """Fill `collected` and return the name of the format; `simplify` is in the file's unit."""
+    ending = path.suffix.lower()
+    if ending in ENDINGS and not path.is_dir():
+        return mesh.read(path, collected, max_pieces, simplify, split)
+    if split is not None:
+        raise FormatError(f"{path}: split is for one mesh file")
     if path.is_dir():
         folder.read(path, collected, max_pieces, simplify)
         return "folder of parts"
-    ending = path.suffix.lower()
-    if ending in ENDINGS:
-        part = read_part(path, max_pieces=max_pieces, simplify=simplify)
-        collected.say(part.name, part.messages)
-        collected.add(part.name, part.pieces, density_factor=part.density_factor)
-        return "mesh"
     if ending == ".json":
         return _read_json(path, collected, max_pieces, simplify)
     if ending in (".xml", ".mjcf", ".urdf"):

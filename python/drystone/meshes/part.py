@@ -11,8 +11,9 @@ import numpy as np
 from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
 from drystone.meshes.hull import hull_corners, hull_triangles, hull_volume
+from drystone.meshes.objects import Split, read_split
 from drystone.meshes.planes import at_least_planes
-from drystone.meshes.reading import read_triangles
+from drystone.meshes.reading import Triangles, read_triangles
 from drystone.meshes.simplify import Simplification, simplified
 from drystone.meshes.surface import Surface, repaired
 
@@ -84,16 +85,54 @@ def read_part(
     label = fspath(source) if isinstance(source, (str, PathLike)) else name or "the mesh"
     try:
         read = read_triangles(source)
-        vertices = read.vertices * _factors(scale)
-        if hull:
-            return _hull(name or read.name, vertices[np.unique(read.triangles)], simplify)
-        triangles = read.triangles
-        if np.prod(_factors(scale)) < 0:
-            triangles = triangles[:, ::-1]
-        name = name or read.name
-        return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify)
+        return part_from(read, scale, name, hull, max_pieces, simplify)
     except MeshError as error:
         raise MeshError(f"{label}: {error}") from None
+
+
+def read_parts(
+    path: str | PathLike[str],
+    *,
+    split: str | None = None,
+    max_pieces: int = MOST_PIECES,
+    simplify: float | None = None,
+) -> tuple[list[Part], Split]:
+    """A part for each object or group of a mesh file, as `read_part`, and how it was split.
+
+    `split` is as for `read_split`. A MeshError names the object.
+    """
+    try:
+        found = read_split(path, split)
+        return [_named(read, found, max_pieces, simplify) for read in found.parts], found
+    except MeshError as error:
+        raise MeshError(f"{fspath(path)}: {error}") from None
+
+
+def _named(read: Triangles, found: Split, max_pieces: int, simplify: float | None) -> Part:
+    try:
+        return part_from(read, max_pieces=max_pieces, simplify=simplify)
+    except MeshError as error:
+        if len(found.parts) == 1:
+            raise
+        raise MeshError(f"object {read.name!r}: {error}") from None
+
+
+def part_from(
+    read: Triangles,
+    scale: float | tuple[float, float, float] = 1.0,
+    name: str | None = None,
+    hull: bool = False,
+    max_pieces: int = MOST_PIECES,
+    simplify: float | None = None,
+) -> Part:
+    """The convex pieces of what a file holds."""
+    factors = _factors(scale)
+    name, vertices, triangles = name or read.name, read.vertices * factors, read.triangles
+    if hull:
+        return _hull(name, vertices[np.unique(triangles)], simplify)
+    if np.prod(factors) < 0:
+        triangles = triangles[:, ::-1]
+    return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify)
 
 
 def part_of(

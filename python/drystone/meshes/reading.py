@@ -1,4 +1,4 @@
-"""Triangles out of mesh files, through trimesh."""
+"""Triangles out of mesh files: OBJ by `obj.py`, the rest through trimesh."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drystone.meshes.errors import MeshError
+from drystone.meshes.obj import Obj, Section, read_obj
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,6 +20,8 @@ ENDINGS = (".obj", ".stl", ".ply", ".off", ".gltf", ".glb")
 
 REPEATING = (".stl", ".glb", ".gltf")
 """Formats that repeat a vertex for each face or normal: merging them is no repair."""
+
+NO_FACES = "it holds no faces: export it as a closed surface of triangles"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -33,35 +36,59 @@ class Triangles:
 
 
 def read_triangles(source: str | PathLike[str] | Any) -> Triangles:
-    """The triangles of a file, or of a trimesh.Trimesh; all meshes of a glTF scene as one.
+    """The triangles of a file, or of a trimesh.Trimesh; all objects of a file as one.
 
     Raises MeshError for what is no mesh and OSError if the file cannot be opened.
     """
     if not isinstance(source, (str, PathLike)):
-        return _of_trimesh(source, "mesh", repeats=False)
+        return of_trimesh(source, "mesh", repeats=False)
+    path = checked(source)
+    if path.suffix.lower() == ".obj":
+        obj = read_obj(path)
+        return of_sections(path.stem, obj, obj.objects)
+    return of_trimesh(load(path), path.stem, path.suffix.lower() in REPEATING)
+
+
+def checked(source: str | PathLike[str]) -> Path:
+    """The path of a mesh file that can be opened."""
     path = Path(fspath(source))
-    ending = path.suffix.lower()
-    if ending not in ENDINGS:
+    if path.suffix.lower() not in ENDINGS:
         raise MeshError(f"not a mesh file by its name: known are {', '.join(ENDINGS)}")
     with path.open("rb"):
         pass  # a file that cannot be opened is an OSError, whatever trimesh makes of it
-    return _of_trimesh(_load(path), path.stem, ending in REPEATING)
+    return path
 
 
-def _load(path: Path) -> Any:
+def of_sections(name: str, obj: Obj, sections: list[Section]) -> Triangles:
+    """The triangles of sections of an OBJ file, over the vertices that they use."""
+    triangles = [triangle for section in sections for triangle in section.triangles]
+    if not triangles:
+        raise MeshError(NO_FACES)
+    # Relative numbers may point before the first vertex: then all of them stay to be refused.
+    numbers = np.array(triangles, dtype=np.int64)
+    if numbers.min() < 0 or numbers.max() >= len(obj.vertices):
+        return Triangles(name, obj.vertices, numbers, repeats=False)
+    used, places = np.unique(numbers, return_inverse=True)
+    return Triangles(name, obj.vertices[used], places.reshape(-1, 3), repeats=False)
+
+
+def load(path: Path, whole: bool = True) -> Any:
+    """What trimesh reads: one mesh, or unless it is to be `whole`, perhaps a scene."""
     import trimesh
 
+    reader = trimesh.load_mesh if whole else trimesh.load
     try:
-        return trimesh.load_mesh(path, process=False, skip_materials=True)
+        return reader(path, process=False, skip_materials=True, merge_primitives=True)
     except Exception as error:  # trimesh raises whatever a broken file runs it into
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise MeshError(f"cannot be read as {path.suffix[1:].upper()}: {reason}") from None
 
 
-def _of_trimesh(mesh: Any, name: str, repeats: bool) -> Triangles:
+def of_trimesh(mesh: Any, name: str, repeats: bool) -> Triangles:
+    """The triangles of a trimesh.Trimesh."""
     vertices, faces = getattr(mesh, "vertices", None), getattr(mesh, "faces", None)
     if vertices is None or faces is None or not len(faces):
-        raise MeshError("it holds no faces: export it as a closed surface of triangles")
+        raise MeshError(NO_FACES)
     return Triangles(
         name, np.array(vertices, dtype=np.float64), np.array(faces, dtype=np.int64), repeats
     )

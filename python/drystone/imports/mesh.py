@@ -1,0 +1,26 @@
+"""A mesh file: a body for each object in it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from drystone.imports.collected import Collected
+from drystone.meshes.part import read_parts
+
+
+def read(
+    path: Path,
+    collected: Collected,
+    max_pieces: int,
+    simplify: float | None = None,
+    split: str | None = None,
+) -> str:
+    """Add the bodies of a file, and return the name of the format; lengths are in its unit."""
+    parts, found = read_parts(path, split=split, max_pieces=max_pieces, simplify=simplify)
+    collected.say(path.name, found.messages)
+    for name in found.empty:
+        collected.leave_out(f"object {name}", "it has no faces")
+    for part in parts:
+        collected.say(part.name, part.messages)
+        collected.add(part.name, part.pieces, density_factor=part.density_factor)
+    return "mesh" if len(parts) == 1 else "mesh of objects"
