@@ -68,9 +68,7 @@ def _split_obj(path: Path, split: str | None) -> Split:
         messages.append(
             f"its {len(obj.groups)} groups are one rigid body: split='groups' makes a body of each"
         )
-    return _or_whole(
-        path, Split(parts, obj.empty, messages), "groups" * by_group or "objects", split
-    )
+    return _or_whole(path, Split(parts, obj.empty, messages), what, split)
 
 
 def _or_whole(path: Path, found: Split, what: str, split: str | None) -> Split:
