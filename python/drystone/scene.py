@@ -206,6 +206,7 @@ class Scene:
         hull: bool = False,
         max_pieces: int | None = None,
         simplify: float | None = None,
+        tolerance: float | None = None,
     ) -> str:
         """Add a mesh as one rigid body of exact convex pieces and return its name.
 
@@ -214,8 +215,10 @@ class Scene:
         lengths. A file of several objects is one body too: `imports.load` makes one of each.
         `hull` takes its convex hull instead. `simplify` (metres) makes few pieces of a
         scan of many triangles by moving its surface by no more than that; the body weighs what the
-        mesh does, its density being changed by as much as its volume was. What is mended or
-        simplified is said in a MeshWarning.
+        mesh does, its density being changed by as much as its volume was. `tolerance` (metres) is
+        how far its vertices may be off: faces that are plane within it become plane. By default
+        that is what its numbers show, twice their last place; 0 takes them as exact. What is
+        mended, made plane or simplified is said in a MeshWarning.
 
         Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls into more
         than `max_pieces` (256) convex pieces, and the errors of `add_solid`.
@@ -224,7 +227,13 @@ class Scene:
 
         most = meshes.MOST_PIECES if max_pieces is None else max_pieces
         part = meshes.read_part(
-            mesh, scale=scale, name=name, hull=hull, max_pieces=most, simplify=simplify
+            mesh,
+            scale=scale,
+            name=name,
+            hull=hull,
+            max_pieces=most,
+            simplify=simplify,
+            tolerance=tolerance,
         )
         for message in part.messages:
             warn(f"{part.name}: {message}", meshes.MeshWarning, stacklevel=2)

@@ -70,6 +70,10 @@ class Collected:
     gravity: tuple[float, float, float] | None = None
     extent: float = 0.0
     """The diagonal of all bodies, without planes and ground."""
+    inexact: float = 0.0
+    """The farthest that a vertex may be off, as far as the numbers of meshes show it."""
+    mesh_tolerance: float | None = None
+    """How far vertices of meshes may be off at least, as the user says."""
     _planes: list[_Plane] = field(default_factory=list)
 
     def add(
@@ -81,8 +85,11 @@ class Collected:
         friction: float | None = None,
         fixed: bool = False,
         density_factor: float = 1.0,
+        tolerance: float = 0.0,
     ) -> None:
-        """One rigid body; a name that is taken gets a number."""
+        """One rigid body; a name that is taken gets a number. Its vertices are off by no more than
+        `tolerance`."""
+        self.inexact = max(self.inexact, tolerance)
         density = DENSITY if density is None else density
         body = ImportedBody(self._free(name), pieces, density, friction, fixed, density_factor)
         self.bodies.append(body)
@@ -139,6 +146,7 @@ class Collected:
     def transform(self, scale: float, rotation: NDArray[np.float64]) -> None:
         """Scale lengths and turn everything; densities are kg/m^3 before and after."""
         self.extent *= scale
+        self.inexact *= scale
         if self.gravity is not None:
             x, y, z = (scale * rotation @ np.array(self.gravity)).tolist()
             self.gravity = (x, y, z)

@@ -14,6 +14,7 @@ import numpy as np
 from drystone.imports.collected import Collected, FormatError
 from drystone.imports.fields import entries, finite
 from drystone.meshes import MeshError, part_of
+from drystone.meshes.rounding import assumed
 
 
 def is_assembly(data: Any) -> bool:
@@ -34,7 +35,13 @@ def read(data: Any, collected: Collected, max_pieces: int) -> None:
             continue
         vertices, triangles = _mesh(_inner(block), key)
         try:
-            part = part_of(key, vertices, triangles, max_pieces=max_pieces)
+            part = part_of(
+                key,
+                vertices,
+                triangles,
+                max_pieces=max_pieces,
+                exact=assumed(vertices, tolerance=collected.mesh_tolerance),
+            )
         except MeshError as error:
             raise MeshError(f"block {key}: {error}") from None
         collected.say(f"block {key}", part.messages)
@@ -44,6 +51,7 @@ def read(data: Any, collected: Collected, max_pieces: int) -> None:
             part.pieces,
             density=None if density is None else finite(density, f"block {key}: density"),
             fixed=bool(node.get("is_support")),
+            tolerance=part.tolerance,
         )
     _interfaces(graph, collected)
 

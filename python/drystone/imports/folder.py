@@ -37,7 +37,12 @@ def read(
         raise FormatError(f"{folder}: no mesh files in it ({', '.join(ENDINGS)}) and no {MANIFEST}")
     poses = _asap_poses(folder)
     for file in files:
-        part = read_part(file, max_pieces=max_pieces, simplify=simplify)
+        part = read_part(
+            file,
+            max_pieces=max_pieces,
+            simplify=simplify,
+            tolerance=collected.mesh_tolerance,
+        )
         _add(collected, part, poses.get(file.stem, Pose.identity()))
     for name in sorted(poses.keys() - {file.stem for file in files}):
         collected.leave_out(f"part {name} of config.json", "there is no mesh of that name")
@@ -84,7 +89,12 @@ def _add_listed(
         raise FormatError(f"{what}: fixed must be true or false")
     scale = finite(fields.get("scale", 1.0), f"{what}: scale")
     read = read_part(
-        path.parent / file, name=name, scale=scale, max_pieces=max_pieces, simplify=simplify
+        path.parent / file,
+        name=name,
+        scale=scale,
+        max_pieces=max_pieces,
+        simplify=simplify,
+        tolerance=collected.mesh_tolerance,
     )
     position = numbers(fields.get("position", [0, 0, 0]), 3, f"{what}: position")
     turned = numbers(fields.get("orientation", [1, 0, 0, 0]), 4, f"{what}: orientation")
@@ -102,7 +112,8 @@ def _add_listed(
 def _add(collected: Collected, part: Part, pose: Pose, **options: Any) -> None:
     collected.say(part.name, part.messages)
     pieces = [pose.apply(piece) for piece in part.pieces]
-    collected.add(part.name, pieces, density_factor=part.density_factor, **options)
+    factor, tolerance = part.density_factor, part.tolerance
+    collected.add(part.name, pieces, density_factor=factor, tolerance=tolerance, **options)
 
 
 def _like(word: str, known: Iterable[str]) -> str:

@@ -28,6 +28,11 @@ TOUCHING = 1e-6
 the rounding of single precision, in which many tools keep coordinates."""
 
 
+INEXACT = 1.5
+"""Bodies touch within so many times what vertices may be off: three last places. Rounding moves two
+faces by one and three quarters at most, and planes fitted to their corners by little more."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Imported:
     """A scene out of another tool's file, and what became of everything in the file."""
@@ -84,8 +89,9 @@ def load(
     first two may be a dict by names of bodies, for these alone. Bodies named in `fixed` never move;
     `ground` lays a fixed box under all. `tolerance` is the scene's `contact_tolerance`, in metres:
     how far apart bodies of an inexact file may be and still touch, by default 1e-6 of the diagonal
-    of all. `simplify` (metres) lets the surface of mesh files move by so much, so that scans become
-    few pieces: see `Scene.add_mesh`.
+    of all, or three last places of the numbers where faces of meshes show that these are rounded.
+    `simplify` (metres) lets the surface of mesh files move by so much, so that scans become few
+    pieces: see `Scene.add_mesh`.
 
     A mesh file of several objects (`o` of OBJ, nodes of glTF) becomes a body for each, called like
     it; so do the groups (`g`) of an OBJ file without objects. `split="groups"` takes each group as
@@ -99,7 +105,8 @@ def load(
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
     if not 0 < scale < float("inf"):
         raise FormatError(f"scale must be a positive number, not {scale!r}")
-    collected = Collected()
+    # Two bodies touch within it if the surface of each is off by half of it.
+    collected = Collected(mesh_tolerance=None if tolerance is None else tolerance / 2 / scale)
     try:
         simplify = None if simplify is None else simplify / scale
         kind = _read(path, collected, max_pieces, simplify, split)
@@ -186,7 +193,7 @@ def _scene(
     from drystone.scene import Scene
 
     if tolerance is None:
-        tolerance = TOUCHING * collected.extent
+        tolerance = _touching(collected)
     if gravity is None:
         gravity = collected.gravity or (0.0, 0.0, -9.81)
     scene = Scene(3, gravity, friction, contact_tolerance=tolerance)
@@ -199,6 +206,18 @@ def _scene(
             fixed=body.fixed,
         )
     return scene
+
+
+def _touching(collected: Collected) -> float:
+    """How far apart bodies may be and still touch, metres, where the user does not say."""
+    exact, rounded = TOUCHING * collected.extent, INEXACT * collected.inexact
+    if rounded <= exact:
+        return exact
+    collected.messages.append(
+        f"bodies touch that are up to {rounded:.2g} m apart or overlap by that, as exact as the "
+        "numbers are: set tolerance for another bound"
+    )
+    return rounded
 
 
 def _reasons(collected: Collected) -> str:

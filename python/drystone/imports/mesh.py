@@ -16,11 +16,18 @@ def read(
     split: str | None = None,
 ) -> str:
     """Add the bodies of a file, and return the name of the format; lengths are in its unit."""
-    parts, found = read_parts(path, split=split, max_pieces=max_pieces, simplify=simplify)
+    parts, found = read_parts(
+        path,
+        split=split,
+        max_pieces=max_pieces,
+        simplify=simplify,
+        tolerance=collected.mesh_tolerance,
+    )
     collected.say(path.name, found.messages)
     for name in found.empty:
         collected.leave_out(f"object {name}", "it has no faces")
     for part in parts:
         collected.say(part.name, part.messages)
-        collected.add(part.name, part.pieces, density_factor=part.density_factor)
+        factor, tolerance = part.density_factor, part.tolerance
+        collected.add(part.name, part.pieces, density_factor=factor, tolerance=tolerance)
     return "mesh" if len(parts) == 1 else "mesh of objects"

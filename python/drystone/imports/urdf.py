@@ -119,7 +119,12 @@ class _Robot:
         if shape.tag == "mesh":
             x, y, z = values(shape.get("scale", "1 1 1"), 3, f"{what}: scale")
             file = self._file(shape.get("filename", ""))
-            part = read_part(file, scale=(x, y, z), max_pieces=self.max_pieces)
+            part = read_part(
+                file,
+                scale=(x, y, z),
+                max_pieces=self.max_pieces,
+                tolerance=self.collected.mesh_tolerance,
+            )
             self.collected.say(what, part.messages)
             return [here.apply(piece) for piece in part.pieces]
         self.collected.leave_out(f"{shape.tag}, {what}", "only boxes and meshes are taken")

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 from drystone.meshes.cells import ACROSS, INSIDE, ON, OUTSIDE, Cell, Plane, clipped, side
 from drystone.meshes.errors import MeshError
@@ -157,7 +157,10 @@ def cleaned(points: NDArray[np.float64], tolerance: float, most: int) -> NDArray
     It is cut out of the planes of its hull again, of which those within `tolerance` (metres) of a
     larger triangle's are the same. A piece of more than `most` planes is smooth: it stays as it is.
     """
-    hull = ConvexHull(points)
+    try:
+        hull = ConvexHull(points)
+    except (QhullError, ValueError):
+        return np.empty((0, 3))
     if hull.volume <= tolerance * hull.area:
         return np.empty((0, 3))
     corners = points[hull.simplices]
@@ -167,7 +170,10 @@ def cleaned(points: NDArray[np.float64], tolerance: float, most: int) -> NDArray
     if at_least_planes(corners, tolerance, most) > most:
         return hull_corners(points)
     cell = Decomposition(corners, tolerance, most, 1).cell_of_all()
-    return np.empty((0, 3)) if cell is None else cell.clean_corners(2 * tolerance)
+    clean = points if cell is None else cell.clean_corners(2 * tolerance)
+    # Nearly parallel planes may meet far from where its corners are.
+    same = cell is not None and abs(hull_volume(clean) - hull.volume) <= tolerance * hull.area
+    return clean if same else hull_corners(points)
 
 
 def winding_number(corners: NDArray[np.float64], point: NDArray[np.float64]) -> float:

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 CONVEX = 1e-9
 """Two pieces are one if their hull has no more volume than they, within this share of it."""
 
+AT_ONCE = 10_000_000
+"""Heights of points above planes computed at a time, for memory."""
+
 
 def hull_volume(points: NDArray[np.float64]) -> float:
     """Volume of the convex hull of points (k, 3), cubic metres; 0 if it is flat."""
@@ -34,6 +37,22 @@ def hull_corners(points: NDArray[np.float64]) -> NDArray[np.float64]:
     except (QhullError, ValueError):
         return points
     return corners
+
+
+def deepest(points: NDArray[np.float64], corners: NDArray[np.float64]) -> float:
+    """How deep the middles of triangles (n, 3, 3) are at most inside the hull of points (k, 3).
+
+    Depth is concave over a triangle and not negative, so that nothing of it is more than three
+    times as deep as its middle.
+    """
+    equations = ConvexHull(points).equations
+    middles = corners.mean(axis=1)
+    groups = len(middles) * len(equations) // AT_ONCE + 1
+    depths = [
+        -(middles[first::groups] @ equations[:, :3].T + equations[:, 3]).max(axis=1)
+        for first in range(groups)
+    ]
+    return float(np.concatenate(depths).max())
 
 
 def hull_triangles(

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drystone.meshes.errors import MeshError
+from drystone.meshes.polygons import Triangle, triangulated
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,7 +27,7 @@ class Section:
 
     name: str
     """Empty for faces before the first such line."""
-    triangles: list[tuple[int, int, int]] = field(default_factory=list)
+    triangles: list[Triangle] = field(default_factory=list)
 
 
 @dataclass(slots=True, eq=False)
@@ -44,7 +45,7 @@ class Obj:
 
 
 def read_obj(path: Path) -> Obj:
-    """An OBJ file; MeshError with the line if it is damaged. Polygons become fans of triangles."""
+    """An OBJ file; MeshError with the line if it is damaged. Polygons become triangles."""
     vertices: list[list[float]] = []
     objects, groups = [Section("")], {"": Section("")}
     group = groups[""]
@@ -55,7 +56,7 @@ def read_obj(path: Path) -> Obj:
                 x, y, z, *_ = rest.split()
                 vertices.append([float(x), float(y), float(z)])
             elif keyword == "f":
-                triangles = _fan(rest.split(), len(vertices))
+                triangles = _triangles(rest.split(), vertices)
                 objects[-1].triangles += triangles
                 group.triangles += triangles
             elif keyword == "o":
@@ -89,11 +90,14 @@ def _lines(path: Path) -> Iterator[tuple[int, str]]:
             yield begun_at, statement
 
 
-def _fan(corners: list[str], before: int) -> list[tuple[int, int, int]]:
-    """Triangles of a polygon `v/vt/vn ...`, from its first corner; `before` vertices are above."""
+def _triangles(corners: list[str], vertices: list[list[float]]) -> list[Triangle]:
+    """Triangles of a polygon `v/vt/vn ...` after the vertices above it."""
     numbers = [int(corner.partition("/")[0]) for corner in corners]
     if len(numbers) < 3 or 0 in numbers:
         raise ValueError
     # Counted from 1, or backwards from the line where the face stands.
-    first, *others = [k - 1 if k > 0 else before + k for k in numbers]
-    return [(first, a, b) for a, b in pairwise(others)]
+    numbers = [k - 1 if k > 0 else len(vertices) + k for k in numbers]
+    if len(numbers) == 3 or not all(0 <= k < len(vertices) for k in numbers):
+        return [(numbers[0], a, b) for a, b in pairwise(numbers[1:])]
+    triangles = triangulated(np.array([vertices[k] for k in numbers]))
+    return [(numbers[a], numbers[b], numbers[c]) for a, b, c in triangles]

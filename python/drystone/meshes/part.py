@@ -10,10 +10,11 @@ import numpy as np
 
 from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
-from drystone.meshes.hull import hull_corners, hull_triangles, hull_volume
+from drystone.meshes.hull import deepest, hull_corners, hull_triangles, hull_volume
 from drystone.meshes.objects import Split, read_split
 from drystone.meshes.planes import at_least_planes
 from drystone.meshes.reading import Triangles, read_triangles
+from drystone.meshes.rounding import Exactness, assumed, evened, shown
 from drystone.meshes.simplify import Simplification, simplified
 from drystone.meshes.surface import Surface, repaired
 
@@ -55,6 +56,8 @@ class Part:
     """What was repaired or taken otherwise than given."""
     simplification: Simplification | None = None
     """What simplifying did; None if that was not asked for."""
+    tolerance: float = 0.0
+    """Metres that its vertices may be off where they should be, if its faces show that."""
 
     @property
     def density_factor(self) -> float:
@@ -72,20 +75,24 @@ def read_part(
     hull: bool = False,
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
+    tolerance: float | None = None,
 ) -> Part:
     """The convex pieces of a mesh file (OBJ, STL, PLY, OFF, glTF, GLB) or of a trimesh.Trimesh.
 
     `scale` makes metres of the file's units. `hull` takes the convex hull instead, as simulators do
     with meshes. `simplify` (metres) allows the surface to move by so much, so that scans of many
     triangles become few pieces; by how much it moved and its volume changed is the part's
-    `simplification`, and its `volume` is still the mesh's. Raises MeshError, naming the mesh and
-    the fix, if it encloses no solid or falls into more than `max_pieces` convex pieces, and OSError
-    if the file cannot be opened.
+    `simplification`, and its `volume` is still the mesh's. `tolerance` (metres) is how far vertices
+    may be from where they should be, so that faces that are plane within it become plane; by
+    default, and at least, twice the last place of the numbers. 0 takes them as exact.
+
+    Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls into more than
+    `max_pieces` convex pieces, and OSError if the file cannot be opened.
     """
     label = fspath(source) if isinstance(source, (str, PathLike)) else name or "the mesh"
     try:
         read = read_triangles(source)
-        return part_from(read, scale, name, hull, max_pieces, simplify)
+        return part_from(read, scale, name, hull, max_pieces, simplify, tolerance)
     except MeshError as error:
         raise MeshError(f"{label}: {error}") from None
 
@@ -96,6 +103,7 @@ def read_parts(
     split: str | None = None,
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
+    tolerance: float | None = None,
 ) -> tuple[list[Part], Split]:
     """A part for each object or group of a mesh file, as `read_part`, and how it was split.
 
@@ -103,14 +111,15 @@ def read_parts(
     """
     try:
         found = read_split(path, split)
-        return [_named(read, found, max_pieces, simplify) for read in found.parts], found
+        options = {"max_pieces": max_pieces, "simplify": simplify, "tolerance": tolerance}
+        return [_named(read, found, options) for read in found.parts], found
     except MeshError as error:
         raise MeshError(f"{fspath(path)}: {error}") from None
 
 
-def _named(read: Triangles, found: Split, max_pieces: int, simplify: float | None) -> Part:
+def _named(read: Triangles, found: Split, options: dict[str, Any]) -> Part:
     try:
-        return part_from(read, max_pieces=max_pieces, simplify=simplify)
+        return part_from(read, **options)
     except MeshError as error:
         if len(found.parts) == 1:
             raise
@@ -124,15 +133,18 @@ def part_from(
     hull: bool = False,
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
+    tolerance: float | None = None,
 ) -> Part:
-    """The convex pieces of what a file holds."""
+    """The convex pieces of what a file holds; the rest is as for `read_part`."""
     factors = _factors(scale)
     name, vertices, triangles = name or read.name, read.vertices * factors, read.triangles
     if hull:
         return _hull(name, vertices[np.unique(triangles)], simplify)
     if np.prod(factors) < 0:
         triangles = triangles[:, ::-1]
-    return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify)
+    # Numbers are as exact as they were before they were scaled.
+    exact = assumed(read.vertices, float(abs(factors).max()), tolerance)
+    return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify, exact)
 
 
 def part_of(
@@ -142,34 +154,69 @@ def part_of(
     quietly: bool = False,
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
+    exact: Exactness | None = None,
 ) -> Part:
-    """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3)."""
+    """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3).
+
+    `exact` says how far vertices may be from where they should be; by default what the numbers
+    show. Faces that are plane within that become plane.
+    """
     if simplify is not None:
         return _simplified(name, vertices, triangles, quietly, max_pieces, simplify)
     _refuse_too_fine(vertices, triangles)
     surface = repaired(vertices, triangles.copy(), quietly)
-    tolerance = FLAT * surface.diagonal
-    volume, area = surface.volume, surface.area
     _check_volume(surface)
-    hull = hull_volume(surface.vertices)
-    convex = hull <= (1 + CONVEX) * volume
+    volume, area = surface.volume, surface.area
+    tight = FLAT * surface.diagonal
+    exact = shown(surface, exact or assumed(surface.vertices), tight)
+    tolerance = evened(surface, exact, tight, MOST_PLANES)
     middle = surface.vertices.mean(axis=0)  # where numbers are exact to the last bits
-    if convex:
+    if _is_convex(surface, exact):
         pieces = [surface.vertices - middle]
     else:
         corners = surface.corners - middle
         pieces = Decomposition(corners, tolerance, MOST_PLANES, max_pieces).pieces()
-    pieces = [cleaned(piece, tolerance, FEW_PLANES) + middle for piece in pieces]
-    pieces = [piece for piece in pieces if len(piece)]
+    pieces = _solid(surface, pieces, tolerance, middle)
     missing = sum(hull_volume(piece) for piece in pieces) - volume
-    if abs(missing) > max(tolerance * area, CONVEX * volume):
+    if abs(missing) > max(max(tolerance, exact.tolerance) * area, CONVEX * volume):
         raise MeshError(
             f"it encloses {volume:.4g} cubic metres but its convex pieces {volume + missing:.4g}: "
             "its surface goes through itself; join its parts to one solid and export it again"
         )
     for piece in pieces:
         _check_corners(piece)
-    return Part(name, pieces, volume, surface.messages)
+    return Part(name, pieces, volume, surface.messages, tolerance=exact.tolerance)
+
+
+def _is_convex(surface: Surface, exact: Exactness) -> bool:
+    """Whether the convex hull is the solid, but for what its numbers are off."""
+    hull = hull_volume(surface.vertices)
+    if hull <= (1 + CONVEX) * surface.volume:
+        return True
+    near = hull <= surface.volume + exact.tolerance * surface.area
+    if (
+        exact.tolerance == 0
+        or not near
+        or deepest(surface.vertices, surface.corners) > exact.tolerance
+    ):
+        return False
+    surface.messages.append(f"{exact.reason}: within that it is convex, and taken as its hull")
+    return True
+
+
+def _solid(
+    surface: Surface,
+    pieces: list[NDArray[np.float64]],
+    tolerance: float,
+    middle: NDArray[np.float64],
+) -> list[NDArray[np.float64]]:
+    """Pieces with plane faces, without those that are as thin as the tolerance (metres)."""
+    clean = [cleaned(piece, tolerance, FEW_PLANES) for piece in pieces]
+    thick = [piece + middle for piece in clean if hull_volume(piece) > 0]
+    thin = len(clean) - len(thick)
+    if thin:
+        surface.messages.append(f"left out {thin} convex pieces that are thinner than rounding")
+    return thick
 
 
 def _simplified(
