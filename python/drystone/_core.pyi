@@ -77,6 +77,7 @@ class Scene:
         density: float,
         friction: float | None,
         fixed: bool,
+        own: tuple[float | None, tuple[float, float] | None, float | None],
     ) -> str: ...
     def add_polygon(
         self,
@@ -85,6 +86,7 @@ class Scene:
         density: float,
         friction: float | None,
         fixed: bool,
+        own: tuple[float | None, tuple[float, float] | None, float | None],
     ) -> str: ...
     def add_cuboid(
         self,
@@ -95,6 +97,11 @@ class Scene:
         density: float,
         friction: float | None,
         fixed: bool,
+        own: tuple[
+            float | None,
+            tuple[float, float, float] | None,
+            Sequence[tuple[float, float, float]] | None,
+        ],
     ) -> str: ...
     def add_solid(
         self,
@@ -105,6 +112,11 @@ class Scene:
         density: float,
         friction: float | None,
         fixed: bool,
+        own: tuple[
+            float | None,
+            tuple[float, float, float] | None,
+            Sequence[tuple[float, float, float]] | None,
+        ],
     ) -> str: ...
     def extruded(self, depth: float) -> Scene: ...
     def __len__(self) -> int: ...
@@ -124,7 +136,9 @@ class Scene:
 
 @final
 class Body:
-    """A snapshot of one body. `vertices` is (n, 2): world coordinates, counter-clockwise."""
+    """A snapshot of one body. `vertices` is (n, 2): world coordinates, counter-clockwise. `offset`
+    is where the centroid is in the body's frame, whose origin is `center_of_mass`.
+    """
 
     name: str
     fixed: bool
@@ -132,7 +146,8 @@ class Body:
     friction: float
     mass: float
     inertia: float
-    centroid: tuple[float, float]
+    center_of_mass: tuple[float, float]
+    offset: tuple[float, float]
     angle: float
     vertices: NDArray[np.float64]
 
@@ -140,8 +155,9 @@ class Body:
 class Solid:
     """A snapshot of one body in space. `vertices` is (n, 3), every corner of every piece in world
     coordinates; `pieces` has for each convex piece its corners in the body's frame, (k, 3), and its
-    faces as lists of them, counter-clockwise from outside. `inertia` is (3, 3), about the centroid
-    along the world's axes; `orientation` a unit quaternion (w, x, y, z).
+    faces as lists of them, counter-clockwise from outside. `inertia` is (3, 3), about
+    `center_of_mass`, the frame's origin, along the world's axes; `orientation` a unit quaternion
+    (w, x, y, z); `offset` is where the centroid is in the frame.
     """
 
     name: str
@@ -150,7 +166,8 @@ class Solid:
     friction: float
     mass: float
     inertia: NDArray[np.float64]
-    centroid: tuple[float, float, float]
+    center_of_mass: tuple[float, float, float]
+    offset: tuple[float, float, float]
     orientation: tuple[float, float, float, float]
     box_size: tuple[float, float, float] | None
     pieces: list[tuple[NDArray[np.float64], list[list[int]]]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -27,14 +28,23 @@ class Body:
     mass: float
     """kg."""
     inertia: float
-    """kg m^2, about the centroid."""
-    centroid: tuple[float, float]
-    """(x, y) in metres."""
+    """kg m^2, about the centre of mass."""
+    center_of_mass: tuple[float, float]
+    """(x, y) in metres: where the body's frame stands. The centroid, unless another was given."""
     angle: float
     """Radians, counter-clockwise: how far the body is turned from the outline it was given with
     (a box from upright; corners given as such are not turned)."""
     vertices: NDArray[np.float64]
     """(n, 2), metres, world coordinates, counter-clockwise."""
+    offset: tuple[float, float]
+    """Where the centroid is in the body's frame, metres."""
+
+    @property
+    def centroid(self) -> tuple[float, float]:
+        """(x, y) in metres: the middle of the shape."""
+        (x, y), (a, b) = self.center_of_mass, self.offset
+        cos, sin = math.cos(self.angle), math.sin(self.angle)
+        return x + cos * a - sin * b, y + sin * a + cos * b
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +52,7 @@ class Piece:
     """One convex piece of a body in space."""
 
     vertices: NDArray[np.float64]
-    """(k, 3), metres, in the body's frame, whose origin is the centroid."""
+    """(k, 3), metres, in the body's frame, whose origin is the centre of mass."""
     faces: tuple[tuple[int, ...], ...]
     """Vertices of each face, counter-clockwise seen from outside."""
 
@@ -62,9 +72,9 @@ class Solid:
     mass: float
     """kg."""
     inertia: NDArray[np.float64]
-    """(3, 3), kg m^2, about the centroid along the axes of the world."""
-    centroid: tuple[float, float, float]
-    """(x, y, z) in metres."""
+    """(3, 3), kg m^2, about the centre of mass along the axes of the world."""
+    center_of_mass: tuple[float, float, float]
+    """(x, y, z), metres: where the body's frame stands. The centroid, unless another was given."""
     orientation: tuple[float, float, float, float]
     """Unit quaternion (w, x, y, z): how far the body is turned from the shape it was given with."""
     box_size: tuple[float, float, float] | None
@@ -73,11 +83,26 @@ class Solid:
     """Its convex pieces, in the body's frame."""
     vertices: NDArray[np.float64]
     """(n, 3), metres: every corner of every piece, in world coordinates."""
+    offset: tuple[float, float, float]
+    """Where the centroid is in the body's frame, metres."""
+
+    @property
+    def centroid(self) -> tuple[float, float, float]:
+        """(x, y, z) in metres: the middle of the shape."""
+        (x, y, z), (w, *v), (a, b, c) = self.center_of_mass, self.orientation, self.offset
+        i, j, k = v
+        # Twice the vector part across the offset, and that again: R x = x + w t + v x t.
+        s, t, u = 2 * (j * c - k * b), 2 * (k * a - i * c), 2 * (i * b - j * a)
+        return (
+            x + a + w * s + j * u - k * t,
+            y + b + w * t + k * s - i * u,
+            z + c + w * u + i * t - j * s,
+        )
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """The centroid: where the body's frame stands."""
-        return self.centroid
+        """The centre of mass: where the body's frame stands."""
+        return self.center_of_mass
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,11 +133,12 @@ def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:
             body.friction,
             body.mass,
             body.inertia,
-            body.centroid,
+            body.center_of_mass,
             body.orientation,
             body.box_size,
             tuple(Piece(v, tuple(tuple(face) for face in faces)) for v, faces in body.pieces),
             body.vertices,
+            body.offset,
         )
     return Body(
         body.name,
@@ -121,7 +147,8 @@ def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:
         body.friction,
         body.mass,
         body.inertia,
-        body.centroid,
+        body.center_of_mass,
         body.angle,
         body.vertices,
+        body.offset,
     )

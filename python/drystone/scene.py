@@ -7,8 +7,9 @@ from os import PathLike, fspath
 from typing import Any
 from warnings import warn
 
-from drystone import _core
+from drystone import _core, weight
 from drystone.body import Contact, snapshot
+from drystone.weight import Inertia
 
 Point = Sequence[float]
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
@@ -90,6 +91,9 @@ class Scene:
         fixed: bool = False,
         *,
         orientation: Sequence[float] = UPRIGHT,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add a box and return its name.
 
@@ -98,6 +102,10 @@ class Scene:
         counter-clockwise; in space by `orientation`, a quaternion (w, x, y, z). Without a `name`
         the body is called "b0", "b1", ... by its place in the scene.
 
+        `mass` (kg) takes the place of the density. `center_of_mass` (metres) is given from the
+        box's middle along its sides, `inertia` (kg m^2; in space (3, 3)) about the centre of mass
+        along these sides. Without them they are those of the shape, evenly filled with the mass.
+
         Raises SceneError, naming the body and the fix, for numbers that are not usable or a name
         already taken. Bodies that overlap are an error of the first question asked of the scene.
         """
@@ -105,7 +113,8 @@ class Scene:
             if tuple(orientation) != UPRIGHT:
                 raise _core.SceneError("a box in the plane is turned by angle=, not orientation=")
             corner, sides = _pair(center, "center"), _pair(size, "size")
-            return self._core.add_box(corner, sides, angle, name, density, friction, fixed)
+            own = weight.in_plane(mass, center_of_mass, inertia)
+            return self._core.add_box(corner, sides, angle, name, density, friction, fixed, own)
         if angle != 0.0:
             raise _core.SceneError("a box in space is turned by orientation=, not angle=")
         return self._core.add_cuboid(
@@ -116,6 +125,7 @@ class Scene:
             density,
             friction,
             fixed,
+            weight.in_space(mass, center_of_mass, inertia),
         )
 
     def add_polygon(
@@ -125,11 +135,16 @@ class Scene:
         density: float = 1.0,
         friction: float | None = None,
         fixed: bool = False,
+        *,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add a convex polygon and return its name.
 
-        `vertices` are at least three (x, y) in metres, in counter-clockwise order. The other
-        arguments and the errors are those of `add_box`.
+        `vertices` are at least three (x, y) in metres, in counter-clockwise order;
+        `center_of_mass` is a point like them. The other arguments and the errors are those of
+        `add_box`.
         """
         if self.dimension == 3:
             raise _core.SceneError(
@@ -137,7 +152,8 @@ class Scene:
                 "corners, add_box their size"
             )
         corners = [_pair(vertex, "a vertex") for vertex in vertices]
-        return self._core.add_polygon(corners, name, density, friction, fixed)
+        own = weight.in_plane(mass, center_of_mass, inertia)
+        return self._core.add_polygon(corners, name, density, friction, fixed, own)
 
     def add_polyhedron(
         self,
@@ -149,12 +165,16 @@ class Scene:
         *,
         position: Point = ORIGIN,
         orientation: Sequence[float] = UPRIGHT,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add the convex hull of points in space and return its name.
 
         `vertices` are at least four (x, y, z) in metres, in any order, in a frame that stands at
-        `position`, turned by `orientation`: the world's own by default. The other arguments and
-        the errors are those of `add_box`.
+        `position`, turned by `orientation`: the world's own by default. `center_of_mass` and
+        `inertia` are given in that frame. The other arguments and the errors are those of
+        `add_box`.
         """
         return self.add_solid(
             [vertices],
@@ -164,6 +184,9 @@ class Scene:
             fixed,
             position=position,
             orientation=orientation,
+            mass=mass,
+            center_of_mass=center_of_mass,
+            inertia=inertia,
         )
 
     def add_solid(
@@ -176,11 +199,16 @@ class Scene:
         *,
         position: Point = ORIGIN,
         orientation: Sequence[float] = UPRIGHT,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add one rigid body made of convex pieces and return its name.
 
         Each piece is the convex hull of its points, as `add_polyhedron` takes them. Pieces may
-        touch; those that overlap are refused, for their mass would count twice.
+        touch. They may overlap if the body is fixed or its `mass` is given; without one they are
+        refused, for their mass would count twice. A centre of mass and an inertia that are not
+        given with the mass count every piece in full.
         """
         return self._core.add_solid(
             [[_triple(vertex, "a vertex") for vertex in piece] for piece in pieces],
@@ -190,6 +218,7 @@ class Scene:
             density,
             friction,
             fixed,
+            weight.in_space(mass, center_of_mass, inertia),
         )
 
     def add_mesh(
@@ -207,6 +236,9 @@ class Scene:
         max_pieces: int | None = None,
         simplify: float | None = None,
         tolerance: float | None = None,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add a mesh as one rigid body of exact convex pieces and return its name.
 
@@ -245,6 +277,9 @@ class Scene:
             fixed,
             position=position,
             orientation=orientation,
+            mass=mass,
+            center_of_mass=center_of_mass,
+            inertia=inertia,
         )
 
     def extruded(self, depth: float = 1.0) -> Scene:

@@ -66,7 +66,7 @@ class Run:
     formulation: str
     """"velocity" or "acceleration"."""
     poses: NDArray[np.float64]
-    """(k + 1, n, 3): the centroid's x and y in metres, and the angle in radians. In space
+    """(k + 1, n, 3): the centre of mass's x and y in metres, and the angle in radians. In space
     (k + 1, n, 7): x, y, z and a unit quaternion (w, x, y, z)."""
     velocities: NDArray[np.float64]
     """(k + 1, n, 3): m/s, m/s, rad/s. In space (k + 1, n, 6): m/s along x, y and z, rad/s about

@@ -11,6 +11,7 @@ from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import UPRIGHT, Point, Scene
 from drystone.simulation import Progress, Run, numbers, velocity_of
 from drystone.verdict import ContactForce
+from drystone.weight import Inertia
 
 if TYPE_CHECKING:
     import numpy as np
@@ -113,7 +114,7 @@ class World:
 
     @property
     def poses(self) -> NDArray[np.float64]:
-        """(bodies, 3): the centroid's x and y in metres, and the angle in radians.
+        """(bodies, 3): the centre of mass's x and y in metres, and the angle in radians.
 
         In space (bodies, 7): x, y, z and a unit quaternion (w, x, y, z).
         """
@@ -153,8 +154,9 @@ class World:
     ) -> None:
         """Push a body during the next step.
 
-        `force` (N) acts at the point `at` (world coordinates, metres), at the centroid without one;
-        `moment` is in N m, in space three numbers. Pushes add up, and end with the step.
+        `force` (N) acts at the point `at` (world coordinates, metres), at the centre of mass
+        without one; `moment` is in N m, in space three numbers. Pushes add up, and end with the
+        step.
         """
         self._core.apply_force(name, *self._wrench(force, at, moment, "force", "N"))
 
@@ -212,11 +214,24 @@ class World:
         fixed: bool = False,
         *,
         orientation: Sequence[float] = UPRIGHT,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add a box at rest and return its name; see `Scene.add_box`."""
         return self.add(
             lambda scene: scene.add_box(
-                center, size, angle, name, density, friction, fixed, orientation=orientation
+                center,
+                size,
+                angle,
+                name,
+                density,
+                friction,
+                fixed,
+                orientation=orientation,
+                mass=mass,
+                center_of_mass=center_of_mass,
+                inertia=inertia,
             )
         )
 
@@ -227,9 +242,24 @@ class World:
         density: float = 1.0,
         friction: float | None = None,
         fixed: bool = False,
+        *,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
     ) -> str:
         """Add a convex polygon at rest and return its name; see `Scene.add_polygon`."""
-        return self.add(lambda scene: scene.add_polygon(vertices, name, density, friction, fixed))
+        return self.add(
+            lambda scene: scene.add_polygon(
+                vertices,
+                name,
+                density,
+                friction,
+                fixed,
+                mass=mass,
+                center_of_mass=center_of_mass,
+                inertia=inertia,
+            )
+        )
 
     def remove(self, name: str) -> None:
         """Take a body out. The next step starts from scratch."""

@@ -39,12 +39,12 @@ export interface Body {
     density: number;
     /** The body's own coefficient of friction. */
     friction: number;
-    /** In the plane: corners about the centroid, m, counter-clockwise. */
+    /** In the plane: corners about the centre of mass, m, counter-clockwise. */
     vertices: [number, number][] | null;
     /** In space: convex pieces, which may touch. */
     pieces: Piece[] | null;
     /**
-     * Where the body is without poses. In the plane x, y (m) of the centroid and turn (rad,
+     * Where the body is without poses. In the plane x, y (m) of the centre of mass and turn (rad,
      * counter-clockwise); in space x, y, z of its frame's origin and a unit quaternion w, x, y, z.
      */
     pose: number[];

@@ -44,7 +44,7 @@ export function facts(film: Film, frame: number, body: number): [string, string]
     if (film.kind === "run" && film.state(frame, body) !== State.absent) {
         const pose = [...film.pose(frame, body)];
         const at = pose.slice(0, film.dimension).map((value) => figures(value));
-        rows.push(["centroid", `${at.join(", ")} m`]);
+        rows.push(["centre of mass", `${at.join(", ")} m`]);
         rows.push(["turn", `${figures((turn(pose) * 180) / Math.PI, 3)}°`]);
     }
     const forces = film.forces(frame)?.filter(({ a, b }) => a === body || b === body) ?? [];

@@ -14,7 +14,7 @@ use drystone_lcp::{
 };
 
 /// A block is at rest while its acceleration stays below this share of gravity; turning counts by the speed of the
-/// block's corner furthest from its centroid. Rounding in a stack of some hundred blocks leaves 1e-12; a block that
+/// block's corner furthest from its centre of mass. Rounding in a stack of some hundred blocks leaves 1e-12; a block that
 /// overhangs an edge by a hundred-millionth of its width has about 1e-8.
 pub const AT_REST: f64 = 1e-9;
 

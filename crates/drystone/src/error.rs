@@ -1,6 +1,7 @@
 //! What can be wrong with a scene, each as a typed error that names the block and the fix.
 
 use crate::geometry::{ShapeFault, SolidFault};
+use crate::mass_properties::InertiaFault;
 use thiserror::Error;
 
 /// A scene that cannot be built, read or put into contact.
@@ -46,6 +47,14 @@ pub enum SceneError {
         body: String,
         /// What is wrong with it, and the fix.
         fault: SolidFault,
+    },
+    /// Moments that no rigid body has.
+    #[error("block \"{body}\": {fault}")]
+    BadInertia {
+        /// The block's name.
+        body: String,
+        /// What is wrong with them, and the fix.
+        fault: InertiaFault,
     },
     /// An orientation that is no rotation.
     #[error("block \"{body}\": the orientation is zero: give a quaternion (w, x, y, z), for instance (1, 0, 0, 0)")]

@@ -1,7 +1,8 @@
 //! A scene: gravity, friction and rigid blocks, each checked when it is added.
 
 use crate::error::SceneError;
-use crate::geometry::{Polygon, Pose, Shape};
+use crate::geometry::{Polygon, Pose, Shape, Vector3};
+use crate::mass_properties::{MassProperties, Weighed};
 use crate::suggest::nearest;
 use std::collections::HashMap;
 
@@ -16,11 +17,20 @@ pub struct BodyOptions {
     pub friction: Option<f64>,
     /// A fixed block bears any load and never moves.
     pub fixed: bool,
+    /// What the block weighs apart from its shape; a mass of its own takes the place of the density.
+    pub own: MassProperties,
 }
 
 impl Default for BodyOptions {
     fn default() -> Self {
-        Self { name: None, density: 1.0, friction: None, fixed: false }
+        Self { name: None, density: 1.0, friction: None, fixed: false, own: MassProperties::default() }
+    }
+}
+
+impl BodyOptions {
+    /// The same for a shape whose centroid is the centre of mass.
+    pub(crate) fn about_centroid(self) -> Self {
+        Self { own: MassProperties { center_of_mass: None, ..self.own }, ..self }
     }
 }
 
@@ -29,31 +39,45 @@ impl Default for BodyOptions {
 pub struct Body<S: Shape = Polygon> {
     /// Unique in the scene.
     pub name: String,
-    /// In the body's frame: the centroid is the origin.
+    /// In the body's frame: the centre of mass is the origin. It is the centroid unless another was given.
     pub shape: S,
     /// The sides, if the block was given as a box.
     pub box_size: Option<S::Vector>,
-    /// Where the frame stands: `position` is the centroid's place in the world.
+    /// Where the frame stands: `position` is the centre of mass in the world.
     pub pose: S::Pose,
-    /// Mass per area, kg/m^2; in space per volume, kg/m^3.
+    /// Mass per area, kg/m^2; in space per volume, kg/m^3. The mean of a block with a mass of its own; where pieces overlap, of
+    /// the sum of their volumes.
     pub density: f64,
     /// The block's own coefficient of friction, if it has one.
     pub friction: Option<f64>,
     /// Whether the block is held in place.
     pub fixed: bool,
+    /// What was given of its weight, in the body's frame: a centre of mass is its origin.
+    pub(crate) own: MassProperties,
+    weighed: Weighed,
 }
 
 impl<S: Shape> Body<S> {
     /// Mass in kilograms (also of a fixed block, which never uses it).
     pub fn mass(&self) -> f64 {
-        self.density * self.shape.measure()
+        self.weighed.mass
+    }
+
+    /// Principal moments of inertia about the centre of mass, kg m^2: in the plane there is one.
+    pub fn moments(&self) -> &[f64] {
+        &self.weighed.moments
+    }
+
+    /// Unit vectors of the principal axes in the body's frame, in the order of the moments; in the plane those of the frame.
+    pub fn principal_axes(&self) -> [Vector3; 3] {
+        self.weighed.axes
     }
 }
 
 impl Body {
-    /// Moment of inertia about the centroid, kg m^2.
+    /// Moment of inertia about the centre of mass, kg m^2.
     pub fn inertia(&self) -> f64 {
-        self.density * self.shape.second_moment()
+        self.weighed.moments[0]
     }
 
     /// The corners in the world, metres, counter-clockwise.
@@ -107,7 +131,7 @@ impl<S: Shape> SceneOf<S> {
         self.index = self.bodies.iter().enumerate().map(|(k, body)| (body.name.clone(), k)).collect();
     }
 
-    /// Adds a block whose place and shape are checked.
+    /// Adds a block whose place and shape are checked; the shape is about its own centre of mass, if it has one.
     pub(crate) fn push(
         &mut self,
         name: String,
@@ -116,16 +140,15 @@ impl<S: Shape> SceneOf<S> {
         pose: S::Pose,
         options: BodyOptions,
     ) -> Result<usize, SceneError> {
-        let BodyOptions { density, friction, fixed, .. } = options;
+        let BodyOptions { density, friction, fixed, own, .. } = options;
         positive(&format!("block \"{name}\": density"), density)?;
         if let Some(friction) = friction {
             check_friction(&format!("block \"{name}\": friction"), friction)?;
         }
-        let body = Body { name, shape, box_size, pose, density, friction, fixed };
-        positive(&format!("block \"{}\": mass", body.name), body.mass())?;
-        for moment in body.shape.moments() {
-            positive(&format!("block \"{}\": moment of inertia", body.name), body.density * moment)?;
-        }
+        let weighed = own.weigh(&name, &shape, density)?;
+        let density = own.mass.map_or(density, |mass| mass / shape.measure());
+        let own = MassProperties { center_of_mass: own.center_of_mass.map(|_| [0.0; 3]), ..own };
+        let body = Body { name, shape, box_size, pose, density, friction, fixed, own, weighed };
         let index = self.bodies.len();
         self.index.insert(body.name.clone(), index);
         self.bodies.push(body);
@@ -204,8 +227,15 @@ impl Scene {
             positive(&format!("block \"{name}\": size[{axis}]"), size[axis])?;
         }
         finite(&format!("block \"{name}\": angle"), angle)?;
-        let pose = Pose { position: center, angle };
-        self.push(name, Polygon::rectangle(size), Some(size), pose, options)
+        let frame = Pose { position: center, angle };
+        let shape = Polygon::rectangle(size);
+        match options.own.checked_center(&name)? {
+            None | Some([0.0, 0.0, _]) => self.push(name, shape, Some(size), frame, options.about_centroid()),
+            Some(own) => {
+                let corners: Vec<[f64; 2]> = shape.vertices().iter().map(|v| v.to_array()).collect();
+                self.push_about(name, &corners, frame, own, options)
+            }
+        }
     }
 
     /// Adds a convex polygon by its corners in the world, counter-clockwise, in metres. Corners on
@@ -228,9 +258,27 @@ impl Scene {
             finite(&format!("block \"{name}\": position[{axis}]"), frame.position[axis])?;
         }
         finite(&format!("block \"{name}\": angle"), frame.angle)?;
+        if let Some(own) = options.own.checked_center(&name)? {
+            return self.push_about(name, vertices, frame, own, options);
+        }
         let (polygon, centroid) =
             Polygon::from_vertices(vertices).map_err(|fault| SceneError::BadShape { body: name.clone(), fault })?;
         let position = frame.transform(centroid.into()).to_array();
+        self.push(name, polygon, None, Pose { position, ..frame }, options)
+    }
+
+    /// Adds a polygon with a centre of mass of its own; both are given in the frame.
+    fn push_about(
+        &mut self,
+        name: String,
+        vertices: &[[f64; 2]],
+        frame: Pose,
+        [x, y, _]: [f64; 3],
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let polygon =
+            Polygon::about(vertices, [x, y]).map_err(|fault| SceneError::BadShape { body: name.clone(), fault })?;
+        let position = frame.transform([x, y].into()).to_array();
         self.push(name, polygon, None, Pose { position, ..frame }, options)
     }
 }

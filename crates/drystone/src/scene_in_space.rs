@@ -29,11 +29,19 @@ impl SceneInSpace {
         for (axis, &side) in size.iter().enumerate() {
             positive(&format!("block \"{name}\": size[{axis}]"), side)?;
         }
-        self.push(name, Solid::cuboid(size), Some(size), pose, options)
+        let shape = Solid::cuboid(size);
+        match options.own.checked_center(&name)? {
+            None | Some([0.0, 0.0, 0.0]) => self.push(name, shape, Some(size), pose, options.about_centroid()),
+            Some(own) => {
+                let corners = shape.vertices().map(|v| v.to_array()).collect();
+                self.push_about(name, &[corners], pose, own, options)
+            }
+        }
     }
 
     /// Adds one rigid block of convex pieces: the hull of each list of points in a frame, metres. The body's own frame
-    /// keeps the orientation and moves its origin to the centroid. Returns the block's index.
+    /// keeps the orientation and moves its origin to the centre of mass. Pieces of a block may overlap if it is fixed or its
+    /// mass is given. Returns the block's index.
     ///
     /// # Errors
     /// [`SceneError`].
@@ -45,13 +53,45 @@ impl SceneInSpace {
     ) -> Result<usize, SceneError> {
         let name = self.free_name(&options)?;
         let frame = checked(&name, "position", frame)?;
+        if let Some(own) = options.own.checked_center(&name)? {
+            return self.push_about(name, pieces, frame, own, options);
+        }
         let bad = |fault: SolidFault| SceneError::BadSolid { body: name.clone(), fault };
         let (solid, centroid) = Solid::from_pieces(pieces).map_err(bad)?;
-        let tolerance = self.contact_tolerance().unwrap_or(RELATIVE_TOLERANCE * solid.width());
-        if let Some(([first, second], depth)) = overlapping_pieces(&solid, tolerance) {
-            return Err(bad(SolidFault::PiecesOverlap { first, second, depth }));
+        self.push_solid(name, solid, frame, centroid, options)
+    }
+
+    /// Adds a solid with a centre of mass of its own; both are given in the frame.
+    fn push_about(
+        &mut self,
+        name: String,
+        pieces: &[Vec<[f64; 3]>],
+        frame: PoseInSpace,
+        own: [f64; 3],
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let bad = |fault: SolidFault| SceneError::BadSolid { body: name.clone(), fault };
+        let solid = Solid::about(pieces, own).map_err(bad)?;
+        self.push_solid(name, solid, frame, own, options)
+    }
+
+    /// Adds a solid whose origin is at `center` of the frame. Its pieces may overlap if its mass does not come from them.
+    fn push_solid(
+        &mut self,
+        name: String,
+        solid: Solid,
+        frame: PoseInSpace,
+        center: [f64; 3],
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        if options.own.mass.is_none() && !options.fixed {
+            let tolerance = self.contact_tolerance().unwrap_or(RELATIVE_TOLERANCE * solid.width());
+            if let Some(([first, second], depth)) = overlapping_pieces(&solid, tolerance) {
+                let fault = SolidFault::PiecesOverlap { first, second, depth };
+                return Err(SceneError::BadSolid { body: name, fault });
+            }
         }
-        let position = frame.transform(Vector3::from_array(centroid)).to_array();
+        let position = frame.transform(Vector3::from_array(center)).to_array();
         self.push(name, solid, None, PoseInSpace { position, ..frame }, options)
     }
 }

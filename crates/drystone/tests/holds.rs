@@ -15,8 +15,13 @@ fn stands(scene: &Scene, keep: &[usize], held: &[usize]) -> bool {
     let mut part = Scene::new(scene.gravity(), scene.friction()).unwrap();
     for (index, body) in scene.bodies().iter().enumerate().filter(|(index, body)| body.fixed || keep.contains(index)) {
         let fixed = body.fixed || held.contains(&index);
-        let options =
-            BodyOptions { name: Some(body.name.clone()), density: body.density, friction: body.friction, fixed };
+        let options = BodyOptions {
+            name: Some(body.name.clone()),
+            density: body.density,
+            friction: body.friction,
+            fixed,
+            ..BodyOptions::default()
+        };
         let corners: Vec<[f64; 2]> = body.shape.vertices().iter().map(|v| v.to_array()).collect();
         part.add_placed_polygon(&corners, body.pose, options).unwrap();
     }

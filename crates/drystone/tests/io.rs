@@ -55,8 +55,13 @@ fn every_built_in_scene_comes_back_as_it_was() {
 #[test]
 fn all_fields_come_back() {
     let mut scene = Scene::new([0.1, -9.0], 0.3).unwrap().with_contact_tolerance(1e-5).unwrap();
-    let options =
-        BodyOptions { name: Some("\"quoted\" \u{fc}ber\n".into()), density: 2400.0, friction: Some(0.0), fixed: true };
+    let options = BodyOptions {
+        name: Some("\"quoted\" \u{fc}ber\n".into()),
+        density: 2400.0,
+        friction: Some(0.0),
+        fixed: true,
+        ..BodyOptions::default()
+    };
     scene.add_box([-0.0, 1.0 / 3.0], [1e-300_f64.sqrt(), 1e150], 1e-17, options).unwrap();
     scene.add_polygon(&[[1e6, 0.1], [1e6 + 1.0, 0.3], [1e6, 1.7]], BodyOptions::default()).unwrap();
     let text = text_of(&scene);

@@ -133,7 +133,13 @@ fn without_the_others(scene: &Scene, keep: &[usize]) -> Scene {
     for (index, body) in scene.bodies().iter().enumerate() {
         if body.fixed || keep.contains(&index) {
             let name = Some(body.name.clone());
-            let options = BodyOptions { name, density: body.density, friction: body.friction, fixed: body.fixed };
+            let options = BodyOptions {
+                name,
+                density: body.density,
+                friction: body.friction,
+                fixed: body.fixed,
+                ..BodyOptions::default()
+            };
             if let Some(size) = body.box_size {
                 part.add_box(body.pose.position, size, body.pose.angle, options).unwrap();
             } else {

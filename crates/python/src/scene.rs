@@ -2,7 +2,7 @@
 
 use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, watch::Watch};
 use drystone::{
-    AnyScene, BodyOptions, SceneError, SceneOf,
+    AnyScene, BodyOptions, MassProperties, SceneError, SceneOf,
     contact::find_solid_contacts,
     find_contacts,
     formulate::{self, Assembly, Cones},
@@ -31,7 +31,9 @@ pub struct Body {
     friction: f64,
     mass: f64,
     inertia: f64,
-    centroid: (f64, f64),
+    center_of_mass: (f64, f64),
+    /// The centroid in the body's frame.
+    offset: (f64, f64),
     angle: f64,
     vertices: Py<PyArray2<f64>>,
 }
@@ -48,7 +50,9 @@ pub struct Solid {
     friction: f64,
     mass: f64,
     inertia: Py<PyArray2<f64>>,
-    centroid: (f64, f64, f64),
+    center_of_mass: (f64, f64, f64),
+    /// The centroid in the body's frame.
+    offset: (f64, f64, f64),
     orientation: (f64, f64, f64, f64),
     box_size: Option<(f64, f64, f64)>,
     pieces: Vec<Piece>,
@@ -67,8 +71,30 @@ pub struct Contact {
     friction: f64,
 }
 
-pub fn options(name: Option<String>, density: f64, friction: Option<f64>, fixed: bool) -> BodyOptions {
-    BodyOptions { name, density, friction, fixed }
+/// A body's own mass (kg), centre of mass (m) and inertia (kg m^2), as far as they are given.
+type OwnInPlane = (Option<f64>, Option<[f64; 2]>, Option<f64>);
+type OwnInSpace = (Option<f64>, Option<[f64; 3]>, Option<[[f64; 3]; 3]>);
+
+fn own_in_plane((mass, center, inertia): OwnInPlane) -> MassProperties {
+    MassProperties {
+        mass,
+        center_of_mass: center.map(|[x, y]| [x, y, 0.0]),
+        inertia: inertia.map(|moment| [[0.0; 3], [0.0; 3], [0.0, 0.0, moment]]),
+    }
+}
+
+fn own_in_space((mass, center_of_mass, inertia): OwnInSpace) -> MassProperties {
+    MassProperties { mass, center_of_mass, inertia }
+}
+
+pub fn options(
+    name: Option<String>,
+    density: f64,
+    friction: Option<f64>,
+    fixed: bool,
+    own: MassProperties,
+) -> BodyOptions {
+    BodyOptions { name, density, friction, fixed, own }
 }
 
 fn raised<T>(result: Result<T, SceneError>) -> PyResult<T> {
@@ -140,7 +166,8 @@ impl Body {
             friction: body.friction.unwrap_or(scene.friction()),
             mass: body.mass(),
             inertia: body.inertia(),
-            centroid: body.pose.position.into(),
+            center_of_mass: body.pose.position.into(),
+            offset: body.shape.centroid().into(),
             angle: body.pose.angle,
             vertices: matrix(py, &body.vertices())?.unbind(),
         })
@@ -150,9 +177,8 @@ impl Body {
 impl Solid {
     fn of(py: Python<'_>, scene: &drystone::SceneInSpace, index: usize) -> PyResult<Self> {
         let body = &scene.bodies()[index];
-        let axes = body.shape.principal_axes().map(|axis| body.pose.rotate(axis));
-        let moments = body.shape.moments();
-        let entry = |i: usize, j: usize| (0..3).map(|k| body.density * moments[k] * axes[k][i] * axes[k][j]).sum();
+        let axes = body.principal_axes().map(|axis| body.pose.rotate(axis));
+        let entry = |i: usize, j: usize| (0..3).map(|k| body.moments()[k] * axes[k][i] * axes[k][j]).sum();
         let inertia: [[f64; 3]; 3] = [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)));
         let piece = |piece: &drystone::geometry::Polyhedron| -> PyResult<Piece> {
             let vertices: Vec<[f64; 3]> = piece.vertices().iter().map(|v| v.to_array()).collect();
@@ -165,7 +191,8 @@ impl Solid {
             friction: body.friction.unwrap_or(scene.friction()),
             mass: body.mass(),
             inertia: matrix(py, &inertia)?.unbind(),
-            centroid: body.pose.position.into(),
+            center_of_mass: body.pose.position.into(),
+            offset: body.shape.centroid().into(),
             orientation: body.pose.orientation.into(),
             box_size: body.box_size.map(Into::into),
             pieces: body.shape.pieces().iter().map(piece).collect::<PyResult<_>>()?,
@@ -239,12 +266,14 @@ impl Scene {
         density: f64,
         friction: Option<f64>,
         fixed: bool,
+        own: OwnInPlane,
     ) -> PyResult<String> {
         let scene = self.plane()?;
-        let added = scene.add_box(center, size, angle, options(name, density, friction, fixed));
+        let added = scene.add_box(center, size, angle, options(name, density, friction, fixed, own_in_plane(own)));
         name_of(scene, added)
     }
 
+    #[allow(clippy::too_many_arguments)]
     fn add_polygon(
         &mut self,
         vertices: Vec<[f64; 2]>,
@@ -252,9 +281,10 @@ impl Scene {
         density: f64,
         friction: Option<f64>,
         fixed: bool,
+        own: OwnInPlane,
     ) -> PyResult<String> {
         let scene = self.plane()?;
-        let added = scene.add_polygon(&vertices, options(name, density, friction, fixed));
+        let added = scene.add_polygon(&vertices, options(name, density, friction, fixed, own_in_plane(own)));
         name_of(scene, added)
     }
 
@@ -268,10 +298,11 @@ impl Scene {
         density: f64,
         friction: Option<f64>,
         fixed: bool,
+        own: OwnInSpace,
     ) -> PyResult<String> {
         let scene = self.space()?;
         let pose = PoseInSpace { position: center, orientation };
-        let added = scene.add_cuboid(pose, size, options(name, density, friction, fixed));
+        let added = scene.add_cuboid(pose, size, options(name, density, friction, fixed, own_in_space(own)));
         name_of(scene, added)
     }
 
@@ -285,10 +316,11 @@ impl Scene {
         density: f64,
         friction: Option<f64>,
         fixed: bool,
+        own: OwnInSpace,
     ) -> PyResult<String> {
         let scene = self.space()?;
         let pose = PoseInSpace { position, orientation };
-        let added = scene.add_solid(&pieces, pose, options(name, density, friction, fixed));
+        let added = scene.add_solid(&pieces, pose, options(name, density, friction, fixed, own_in_space(own)));
         name_of(scene, added)
     }
 

@@ -108,16 +108,16 @@ def rotation(orientation: Sequence[float]) -> Points:
     return turned
 
 
-def placed(body: Solid, centroid: Sequence[float], orientation: Sequence[float]) -> Solid:
+def placed(body: Solid, position: Sequence[float], orientation: Sequence[float]) -> Solid:
     """The body elsewhere."""
     own = np.concatenate([piece.vertices for piece in body.pieces])
-    x, y, z = centroid
+    x, y, z = position
     w, i, j, k = orientation
     return replace(
         body,
-        centroid=(x, y, z),
+        center_of_mass=(x, y, z),
         orientation=(w, i, j, k),
-        vertices=own @ rotation(orientation).T + np.asarray(centroid),
+        vertices=own @ rotation(orientation).T + np.asarray(position),
     )
 
 
@@ -141,7 +141,7 @@ def pieces_of(bodies: Sequence[Solid], box: tuple[Points, Points]) -> list[Piece
     for index, body in enumerate(bodies):
         turned = rotation(body.orientation)
         for piece in body.pieces:
-            corners = piece.vertices @ turned.T + np.asarray(body.centroid)
+            corners = piece.vertices @ turned.T + np.asarray(body.center_of_mass)
             if body.fixed:
                 corners = np.clip(corners, low, high)
             found.append(Piece(index, corners, piece.faces, _normals(corners, piece.faces)))

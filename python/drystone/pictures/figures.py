@@ -155,11 +155,11 @@ def _draw_forces(canvas: Canvas, verdict: Verdict, longest: float) -> None:
 
 
 def _draw_fall(canvas: Canvas, verdict: Verdict, blocks: Sequence[Body], longest: float) -> None:
-    """Accelerations of centroids to scale, and dashed outlines of where the blocks are going."""
+    """Accelerations to scale, and dashed outlines of where the blocks are going."""
     falling = [body for body in blocks if body.name in verdict.falling]
     moves = np.array([verdict.acceleration(body.name) for body in falling])
-    centroids = np.array([body.centroid for body in falling])
-    draw_arrows(canvas, centroids, moves[:, :2], longest, "m/s²", style.FALL, key_at=0.5)
+    centers = np.array([body.center_of_mass for body in falling])
+    draw_arrows(canvas, centers, moves[:, :2], longest, "m/s²", style.FALL, key_at=0.5)
     ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
     fastest = max(float(np.max(np.hypot(*ghost.T))) for ghost in ghosts)
     reach = GHOST_MOVE * typical_size(blocks) / fastest if fastest > 0 else 0.0
@@ -178,7 +178,7 @@ def _draw_fall(canvas: Canvas, verdict: Verdict, blocks: Sequence[Body], longest
 
 def _corner_moves(body: Body, acceleration: np.ndarray) -> np.ndarray:
     """(n, 2): acceleration of every corner of a body that is at rest, m/s^2."""
-    arm = body.vertices - np.asarray(body.centroid)
+    arm = body.vertices - np.asarray(body.center_of_mass)
     turn = acceleration[2] * np.stack([-arm[:, 1], arm[:, 0]], axis=1)
     moves: np.ndarray = acceleration[:2] + turn
     return moves

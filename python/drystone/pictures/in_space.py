@@ -121,7 +121,7 @@ def _draw_fall(
     """Accelerations to scale, and dashed outlines of where the blocks are going."""
     falling = [body for body in drawing.bodies if body.name in verdict.falling]
     moves = np.array([verdict.acceleration(body.name) for body in falling])
-    origins = np.array([body.centroid for body in falling])
+    origins = np.array([body.center_of_mass for body in falling])
     flat = drawing.view.flat
     draw_arrows(canvas, flat(origins), flat(moves[:, :3]), longest, "m/s²", style.FALL, key_at=0.5)
     ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
@@ -135,6 +135,6 @@ def _draw_fall(
 
 def _corner_moves(body: Solid, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:
     """(n, 3): acceleration of every corner of a body that is at rest, m/s^2."""
-    arm = body.vertices - np.asarray(body.centroid)
+    arm = body.vertices - np.asarray(body.center_of_mass)
     moves: NDArray[np.float64] = acceleration[:3] + np.cross(acceleration[3:], arm)
     return moves

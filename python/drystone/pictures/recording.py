@@ -60,7 +60,7 @@ def _moved(recording: Recording, frame: int) -> list[Body]:
     if recording.poses is None:
         return list(bodies)
     return [
-        replace(body, centroid=(x, y), angle=angle, vertices=_placed(body, x, y, angle))
+        replace(body, center_of_mass=(x, y), angle=angle, vertices=_placed(body, x, y, angle))
         for body, (x, y, angle) in zip(bodies, recording.poses[frame].tolist(), strict=True)
     ]
 

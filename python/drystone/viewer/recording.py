@@ -152,9 +152,9 @@ class Recording:
 
 
 def own_frame(body: Body) -> NDArray[np.float64]:
-    """(n, 2): corners about the centroid, not turned, m."""
+    """(n, 2): corners about the centre of mass, not turned, m."""
     cos, sin = np.cos(body.angle), np.sin(body.angle)
-    arm: NDArray[np.float64] = body.vertices - np.asarray(body.centroid)
+    arm: NDArray[np.float64] = body.vertices - np.asarray(body.center_of_mass)
     back: NDArray[np.float64] = arm @ np.array([[cos, -sin], [sin, cos]])
     return back
 
@@ -168,9 +168,9 @@ def rows_of(starts: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.
 
 def _body(body: Body | Solid) -> BodyJson:
     pose = (
-        (*body.centroid, body.angle)
+        (*body.center_of_mass, body.angle)
         if isinstance(body, Body)
-        else (*body.centroid, *body.orientation)
+        else (*body.center_of_mass, *body.orientation)
     )
     return {
         "name": body.name,

@@ -29,7 +29,7 @@ impl Placed {
         let rotate = |v: Vector3| v.x * x + v.y * y + v.z * z;
         Self {
             pieces: body.shape.pieces().iter().map(|piece| piece.turned(rotate)).collect(),
-            axes: body.shape.principal_axes().map(rotate),
+            axes: body.principal_axes().map(rotate),
         }
     }
 }

@@ -16,7 +16,7 @@ pub struct ContactForce {
 /// Acceleration of a block in world axes; in the plane x, y and the turn about z are in use.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Acceleration {
-    /// Of the centroid, m/s^2.
+    /// Of the centre of mass, m/s^2.
     pub linear: [f64; 3],
     /// rad/s^2.
     pub angular: [f64; 3],

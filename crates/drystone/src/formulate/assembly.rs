@@ -307,7 +307,7 @@ impl Assembly {
         self.generators_on[added].iter().copied().filter(joins).collect()
     }
 
-    /// Movable blocks from the supports upward: by the height of their centroid against gravity, the lower index first
+    /// Movable blocks from the supports upward: by the height of their centre of mass against gravity, the lower index first
     /// among equals. Heights within rounding of one another count as equal, so that a row of a wall is taken in order.
     pub fn upward(&self) -> Vec<usize> {
         const LEVELS: f64 = 1e9;

@@ -20,13 +20,13 @@ pub struct Part {
     pub fixed: bool,
     /// Kilograms.
     pub mass: f64,
-    /// Principal moments of inertia about the centroid, kg m^2.
+    /// Principal moments of inertia about the centre of mass, kg m^2.
     pub inertia: [f64; 3],
     /// Unit vectors of the principal axes, in the world.
     pub axes: [[f64; 3]; 3],
-    /// The centroid in the world, metres.
+    /// The centre of mass in the world, metres.
     pub center: [f64; 3],
-    /// Distance of the furthest corner from the centroid, metres.
+    /// Distance of the furthest corner from the centre of mass, metres.
     pub radius: f64,
 }
 
@@ -89,13 +89,13 @@ impl Assemble for Solid {
     }
 
     fn part(body: &Body<Self>) -> Part {
-        let moments = body.shape.moments();
+        let moments = body.moments();
         Part {
             name: body.name.clone(),
             fixed: body.fixed,
             mass: body.mass(),
-            inertia: [0, 1, 2].map(|k| body.density * moments[k]),
-            axes: body.shape.principal_axes().map(|axis| body.pose.rotate(axis).to_array()),
+            inertia: [0, 1, 2].map(|k| moments[k]),
+            axes: body.principal_axes().map(|axis| body.pose.rotate(axis).to_array()),
             center: body.pose.position,
             radius: body.shape.radius(),
         }
@@ -111,7 +111,7 @@ impl Assemble for Solid {
 }
 
 impl Part {
-    /// Force and moment about the centroid of a force at a point of the world.
+    /// Force and moment about the centre of mass of a force at a point of the world.
     pub fn wrench(&self, force: [f64; 3], point: [f64; 3]) -> Components {
         let moment = self.along_axes(cross(minus(point, self.center), force));
         [force[0], force[1], force[2], moment[0], moment[1], moment[2]]

@@ -1,6 +1,6 @@
-//! Convex polygons, checked once, in the frame of their own centroid.
+//! Convex polygons, checked once, in the frame of their centre of mass.
 
-use super::{Pose, Shape, Vector};
+use super::{OWN_AXES, Pose, Shape, Vector, Vector3};
 use parry2d_f64::mass_properties::{MassProperties, details};
 use thiserror::Error;
 
@@ -57,10 +57,11 @@ pub enum ShapeFault {
     SelfCrossing,
 }
 
-/// A convex polygon whose centroid is the origin.
+/// A convex polygon whose centre of mass is the origin.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     vertices: Vec<Vector>,
+    centroid: Vector,
     area: f64,
     second_moment: f64,
     width: f64,
@@ -88,22 +89,35 @@ impl Polygon {
         let extent = check_corners(&given)?;
         let convex = merge_straight(&given, extent)?;
         let (local, centroid) = centred(convex, extent);
-        let polygon = Self::measured(local);
-        if polygon.width <= FLAT * extent {
-            return Err(ShapeFault::ZeroArea);
-        }
-        Ok((polygon, centroid.to_array()))
+        Ok((Self::measured(local).with_area(extent)?, centroid.to_array()))
+    }
+
+    /// The same with its origin at a centre of mass, metres, which may be anywhere. About the origin the corners are kept bit
+    /// for bit.
+    pub fn about(corners: &[[f64; 2]], center_of_mass: [f64; 2]) -> Result<Self, ShapeFault> {
+        let given: Vec<Vector> = corners.iter().copied().map(Vector::from_array).collect();
+        let extent = check_corners(&given)?;
+        let center = Vector::from_array(center_of_mass);
+        let local: Vec<Vector> = merge_straight(&given, extent)?.into_iter().map(|v| v - center).collect();
+        // Measured about the centroid, so that nothing is lost however far away it is.
+        let (near, centroid) = centred(local.clone(), extent);
+        let radius = furthest(&local);
+        Ok(Self { vertices: local, centroid, radius, ..Self::measured(near).with_area(extent)? })
+    }
+
+    fn with_area(self, extent: f64) -> Result<Self, ShapeFault> {
+        if self.width <= FLAT * extent { Err(ShapeFault::ZeroArea) } else { Ok(self) }
     }
 
     fn measured(vertices: Vec<Vector>) -> Self {
         let (area, _) = details::convex_polygon_area_and_center_of_mass(&vertices);
         let second_moment = MassProperties::from_convex_polygon(1.0, &vertices).principal_inertia();
         let width = least_width(&vertices);
-        let radius = vertices.iter().fold(0.0, |radius, v| v.length().max(radius));
-        Self { vertices, area, second_moment, width, radius }
+        let radius = furthest(&vertices);
+        Self { vertices, centroid: Vector::ZERO, area, second_moment, width, radius }
     }
 
-    /// The corners relative to the centroid, metres, counter-clockwise.
+    /// The corners relative to the centre of mass, metres, counter-clockwise.
     pub fn vertices(&self) -> &[Vector] {
         &self.vertices
     }
@@ -116,6 +130,18 @@ impl Polygon {
     /// Polar second moment of area about the centroid, m^4.
     pub fn second_moment(&self) -> f64 {
         self.second_moment
+    }
+
+    /// Integrals of x^2, y^2 and x y over the area about the centroid, m^4.
+    pub(crate) fn second_moments(&self) -> [f64; 3] {
+        let about: Vec<Vector> = self.vertices.iter().map(|v| *v - self.centroid).collect();
+        let of_side = |[xx, yy, xy]: [f64; 3], (a, b): (Vector, Vector)| {
+            let (share, sum) = (a.perp_dot(b) / 24.0, a + b);
+            let square = |a: f64, b: f64, sum: f64| share * (a * a + b * b + sum * sum);
+            let mixed = share * (a.x * a.y + b.x * b.y + sum.x * sum.y);
+            [xx + square(a.x, b.x, sum.x), yy + square(a.y, b.y, sum.y), xy + mixed]
+        };
+        sides(&about).fold([0.0; 3], of_side)
     }
 }
 
@@ -131,12 +157,20 @@ impl Shape for Polygon {
         vec![self.second_moment]
     }
 
+    fn axes(&self) -> [Vector3; 3] {
+        OWN_AXES
+    }
+
     fn radius(&self) -> f64 {
         self.radius
     }
 
     fn width(&self) -> f64 {
         self.width
+    }
+
+    fn centroid(&self) -> [f64; 2] {
+        self.centroid.to_array()
     }
 
     fn place(pose: &Pose) -> [f64; 2] {
@@ -237,6 +271,11 @@ fn least_width(vertices: &[Vector]) -> f64 {
         vertices.iter().map(|v| inwards.dot(*v - a)).fold(0.0, f64::max)
     };
     sides(vertices).map(across).fold(f64::INFINITY, f64::min)
+}
+
+/// The greatest distance of a corner from the origin.
+fn furthest(vertices: &[Vector]) -> f64 {
+    vertices.iter().fold(0.0, |radius, v| v.length().max(radius))
 }
 
 /// Every face as its two ends.

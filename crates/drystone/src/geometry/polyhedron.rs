@@ -45,7 +45,8 @@ pub enum SolidFault {
     },
     /// Two pieces of one solid occupy the same place.
     #[error(
-        "pieces {first} and {second} overlap by {depth:.3e} m: their mass would count twice; give pieces that only touch"
+        "pieces {first} and {second} overlap by {depth:.3e} m: their mass would count twice; give the block's mass, or pieces \
+         that only touch"
     )]
     PiecesOverlap {
         /// Index of the first of them.

@@ -1,5 +1,6 @@
 //! What a scene asks of the shape of a block, in the plane and in space.
 
+use super::Vector3;
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
@@ -24,7 +25,7 @@ impl<T> Numbers for T where
 {
 }
 
-/// The shape of one block in its own frame, whose origin is the centroid.
+/// The shape of one block in its own frame, whose origin is the centre of mass: the centroid, unless another was given.
 pub trait Shape: Clone + Debug + PartialEq {
     /// A point or a vector: `[f64; 2]` or `[f64; 3]`.
     type Vector: Numbers;
@@ -37,13 +38,19 @@ pub trait Shape: Clone + Debug + PartialEq {
     /// Principal second moments about the centroid for a density of one: m^4 in the plane, where there is one, m^5 in space.
     fn moments(&self) -> Vec<f64>;
 
-    /// Distance of the furthest corner from the centroid, metres.
+    /// Unit vectors of the principal axes in the frame, in the order of the moments; in the plane those of the frame.
+    fn axes(&self) -> [Vector3; 3];
+
+    /// Distance of the furthest corner from the frame's origin, metres.
     fn radius(&self) -> f64;
 
     /// Distance of two parallel lines or planes that hold the shape between them, metres: the least over those along a face.
     fn width(&self) -> f64;
 
-    /// Where the frame's origin, the centroid, is in the world, metres.
+    /// Where the centroid is in the frame, metres: zero to the bit unless another centre of mass was given.
+    fn centroid(&self) -> Self::Vector;
+
+    /// Where the frame's origin, the centre of mass, is in the world, metres.
     fn place(pose: &Self::Pose) -> Self::Vector;
 
     /// Lower and upper corner of the box around the shape where its frame stands, world coordinates, metres.

@@ -1,15 +1,16 @@
-//! Rigid shapes in space: convex pieces that touch, about their common centroid.
+//! Rigid shapes in space: convex pieces about their common centre of mass.
 
 use super::{
     PoseInSpace, Shape, Vector3,
     polyhedron::{Polyhedron, SolidFault},
+    principal,
 };
-use faer::{Mat, Side};
 
-/// One rigid shape of convex pieces, in the frame of its centroid.
+/// One rigid shape of convex pieces, in the frame of its centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
     pieces: Vec<Polyhedron>,
+    centroid: Vector3,
     volume: f64,
     /// Principal second moments for a density of one, m^5.
     moments: [f64; 3],
@@ -25,53 +26,47 @@ impl Solid {
         Self::measured(vec![Polyhedron::cuboid(size)])
     }
 
-    /// The convex hull of each list of points, in metres, and the centroid of all. Pieces may touch but not overlap, which
-    /// [`Solid::overlap`](crate::contact) checks when the scene takes the solid.
+    /// The convex hull of each list of points, in metres, and the centroid of all.
     ///
-    /// Points whose centroid is the origin (to rounding) are kept bit for bit, so that a stored solid comes back as it was.
+    /// Points whose centroid is the origin (to rounding) are kept bit for bit, so that a stored solid comes back as it was. Where
+    /// pieces overlap, volume, centroid and moments count each of them in full.
     ///
     /// # Errors
     /// [`SolidFault`].
     pub fn from_pieces(pieces: &[Vec<[f64; 3]>]) -> Result<(Self, [f64; 3]), SolidFault> {
-        let hull = |points: &Vec<[f64; 3]>| {
-            let points: Vec<Vector3> = points.iter().copied().map(Vector3::from_array).collect();
-            Polyhedron::hull(&points)
-        };
-        let pieces = pieces.iter().map(hull).collect::<Result<Vec<_>, _>>()?;
-        let Some(first) = pieces.first() else { return Err(SolidFault::NoPieces) };
-        // The shift is found about a corner, so that it is as exact far from the world's origin as near it.
-        let corner = first.vertices()[0];
-        let near: Vec<Polyhedron> = pieces.iter().map(|piece| piece.shifted(-corner)).collect();
-        let (volume, first_moment, _) = integrals(&near);
-        if volume <= 0.0 {
-            return Err(SolidFault::ZeroVolume);
-        }
-        let offset = first_moment / volume;
-        let centroid = corner + offset;
-        let extent = near.iter().flat_map(Polyhedron::vertices).fold(0.0, |most, v| v.length().max(most));
-        if centroid.length() <= 1e-14 * extent {
-            return Ok((Self::measured(pieces), [0.0; 3]));
-        }
-        let local = near.iter().map(|piece| piece.shifted(-offset)).collect();
+        let (local, centroid) = centred(hulls(pieces)?)?;
         Ok((Self::measured(local), centroid.to_array()))
+    }
+
+    /// The same with its origin at a centre of mass, metres, which may be anywhere. About the origin the points are kept bit
+    /// for bit.
+    ///
+    /// # Errors
+    /// [`SolidFault`].
+    pub fn about(pieces: &[Vec<[f64; 3]>], center_of_mass: [f64; 3]) -> Result<Self, SolidFault> {
+        let center = Vector3::from_array(center_of_mass);
+        let mut pieces = hulls(pieces)?;
+        if center != Vector3::ZERO {
+            pieces = pieces.iter().map(|piece| piece.shifted(-center)).collect();
+        }
+        // Measured about the centroid, so that nothing is lost however far away it is.
+        let (near, centroid) = centred(pieces.clone())?;
+        let radius = furthest(&pieces);
+        Ok(Self { pieces, centroid, radius, ..Self::measured(near) })
     }
 
     fn measured(pieces: Vec<Polyhedron>) -> Self {
         let (volume, _, second) = integrals(&pieces);
-        let (moments, axes) = principal(second);
+        let [xx, yy, zz, xy, xz, yz] = second;
+        let (moments, axes) = principal([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]]);
         let width = least_width(&pieces);
-        let radius = pieces.iter().flat_map(Polyhedron::vertices).fold(0.0, |radius, v| v.length().max(radius));
-        Self { pieces, volume, moments, axes, radius, width }
+        let radius = furthest(&pieces);
+        Self { pieces, centroid: Vector3::ZERO, volume, moments, axes, radius, width }
     }
 
-    /// The convex pieces, about the centroid.
+    /// The convex pieces, about the centre of mass.
     pub fn pieces(&self) -> &[Polyhedron] {
         &self.pieces
-    }
-
-    /// Unit vectors of the principal axes in the body's frame, in the order of the moments.
-    pub fn principal_axes(&self) -> [Vector3; 3] {
-        self.axes
     }
 
     /// Every corner of every piece.
@@ -92,12 +87,20 @@ impl Shape for Solid {
         self.moments.to_vec()
     }
 
+    fn axes(&self) -> [Vector3; 3] {
+        self.axes
+    }
+
     fn radius(&self) -> f64 {
         self.radius
     }
 
     fn width(&self) -> f64 {
         self.width
+    }
+
+    fn centroid(&self) -> [f64; 3] {
+        self.centroid.to_array()
     }
 
     fn place(pose: &PoseInSpace) -> [f64; 3] {
@@ -111,6 +114,38 @@ impl Shape for Solid {
         let most = corners().fold(Vector3::NEG_INFINITY, Vector3::max);
         [least.to_array(), most.to_array()]
     }
+}
+
+/// The convex hull of each list of points.
+fn hulls(pieces: &[Vec<[f64; 3]>]) -> Result<Vec<Polyhedron>, SolidFault> {
+    let hull = |points: &Vec<[f64; 3]>| {
+        let points: Vec<Vector3> = points.iter().copied().map(Vector3::from_array).collect();
+        Polyhedron::hull(&points)
+    };
+    pieces.iter().map(hull).collect()
+}
+
+/// The pieces about their common centroid, and where that was. What is there to rounding is kept bit for bit.
+fn centred(pieces: Vec<Polyhedron>) -> Result<(Vec<Polyhedron>, Vector3), SolidFault> {
+    let Some(first) = pieces.first() else { return Err(SolidFault::NoPieces) };
+    // The shift is found about a corner, so that it is as exact far from the world's origin as near it.
+    let corner = first.vertices()[0];
+    let near: Vec<Polyhedron> = pieces.iter().map(|piece| piece.shifted(-corner)).collect();
+    let (volume, first_moment, _) = integrals(&near);
+    if volume <= 0.0 {
+        return Err(SolidFault::ZeroVolume);
+    }
+    let offset = first_moment / volume;
+    let centroid = corner + offset;
+    if centroid.length() <= 1e-14 * furthest(&near) {
+        return Ok((pieces, Vector3::ZERO));
+    }
+    Ok((near.iter().map(|piece| piece.shifted(-offset)).collect(), centroid))
+}
+
+/// The greatest distance of a corner from the origin.
+fn furthest(pieces: &[Polyhedron]) -> f64 {
+    pieces.iter().flat_map(Polyhedron::vertices).fold(0.0, |radius, v| v.length().max(radius))
 }
 
 /// Symmetric: xx, yy, zz, xy, xz, yz.
@@ -129,25 +164,6 @@ fn integrals(pieces: &[Polyhedron]) -> (f64, Vector3, Symmetric) {
         }
     }
     (volume, first, second)
-}
-
-/// Products of inertia below this share of the moments are rounding: the body's own axes are principal then, and wrenches
-/// along them have fewer entries.
-const ALIGNED: f64 = 1e-13;
-
-/// Principal second moments and axes.
-fn principal([xx, yy, zz, xy, xz, yz]: Symmetric) -> ([f64; 3], [Vector3; 3]) {
-    let diagonal = [yy + zz, xx + zz, xx + yy];
-    let largest = diagonal.into_iter().fold(0.0, f64::max);
-    let aligned = (diagonal, [Vector3::X, Vector3::Y, Vector3::Z]);
-    if [xy, xz, yz].iter().all(|product| product.abs() <= ALIGNED * largest) {
-        return aligned;
-    }
-    let tensor = [[diagonal[0], -xy, -xz], [-xy, diagonal[1], -yz], [-xz, -yz, diagonal[2]]];
-    let tensor = Mat::from_fn(3, 3, |i, j| tensor[i][j]);
-    let Ok(eigen) = tensor.self_adjoint_eigen(Side::Lower) else { return aligned };
-    let axis = |k: usize| Vector3::new(eigen.U()[(0, k)], eigen.U()[(1, k)], eigen.U()[(2, k)]);
-    ([0, 1, 2].map(|k| eigen.S()[k]), [axis(0), axis(1), axis(2)])
 }
 
 /// The least extent of the whole along the normal of a face.

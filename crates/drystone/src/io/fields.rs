@@ -59,9 +59,22 @@ impl<'a> Fields<'a> {
         self.read(field, expected(N, false), as_numbers)
     }
 
+    /// Three rows of three numbers.
+    pub fn tensor(&self, field: &str) -> Result<Option<[[f64; 3]; 3]>, FileError> {
+        self.read(field, "three rows of three numbers: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]", |value| {
+            let rows = value.as_array()?.iter().map(as_numbers).collect::<Option<Vec<[f64; 3]>>>()?;
+            rows.try_into().ok()
+        })
+    }
+
     /// Points of N coordinates.
     pub fn points<const N: usize>(&self, field: &str) -> Result<Option<Vec<[f64; N]>>, FileError> {
         self.read(field, expected(N, true), |value| value.as_array()?.iter().map(as_numbers).collect())
+    }
+
+    /// An error for a value that cannot be where it is.
+    pub fn wrong(&self, what: &str, value: &Value, expected: &str) -> FileError {
+        wrong_type(self.file, format!("{}: {what}", self.place), value, expected)
     }
 
     fn read<T>(

@@ -15,7 +15,8 @@
 //! own frame, which stands at "position", turned by "angle" (counter-clockwise). In space, which is
 //! "dimension" 3, points have three coordinates, densities are in kg/m^3, the shape is a "box" or
 //! a "solid" of convex pieces (`{"pieces": [{"vertices": [[x, y, z], ...]}, ...]}`), and a unit quaternion
-//! "orientation" (w, x, y, z) takes the place of the angle. Left out are:
+//! "orientation" (w, x, y, z) takes the place of the angle. A body may say "mass" (kg) instead of "density", and its own
+//! "center_of_mass" (m) and "inertia" (kg m^2 about it; in space three rows), both in the frame of the shape. Left out are:
 //! name (see [`BodyOptions`](crate::BodyOptions)), position (the origin), angle (0), density (1),
 //! friction (the scene's), fixed (false), and the scene's contact_tolerance (see
 //! [`contact`](crate::contact)). `docs/scene.schema.json` is the format's JSON Schema.
@@ -26,6 +27,7 @@ mod fields;
 mod file;
 mod read;
 mod shapes;
+mod weight;
 mod write;
 
 pub use file::{load, save};

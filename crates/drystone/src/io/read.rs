@@ -2,7 +2,7 @@
 
 use super::fields::{Fields, brief, wrong_type};
 use super::shapes::Stored;
-use super::{FORMAT, VERSION};
+use super::{FORMAT, VERSION, weight};
 use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
 use crate::geometry::{Polygon, Solid};
@@ -12,8 +12,8 @@ use serde_json::Value;
 const SCENE_FIELDS: [&str; 7] =
     ["format", "version", "dimension", "gravity", "friction", "contact_tolerance", "bodies"];
 
-/// Fields of a body besides its shape and its place.
-const BODY_FIELDS: [&str; 4] = ["name", "density", "friction", "fixed"];
+/// Fields of a body besides its shape, its place and its weight.
+const BODY_FIELDS: [&str; 3] = ["name", "friction", "fixed"];
 
 /// Reads a scene from the text of a scene file. `file` is the name by which errors call it.
 ///
@@ -69,7 +69,7 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
         Some(name) => format!("bodies[{index}] \"{name}\""),
         None => format!("bodies[{index}]"),
     };
-    let allowed: Vec<&str> = BODY_FIELDS.iter().chain(S::FIELDS).copied().collect();
+    let allowed: Vec<&str> = BODY_FIELDS.iter().chain(&weight::FIELDS).chain(S::FIELDS).copied().collect();
     let body = Fields::of(file, place, value, &allowed)?;
     let plain = BodyOptions::default();
     let options = BodyOptions {
@@ -77,6 +77,7 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
         density: body.number("density")?.unwrap_or(plain.density),
         friction: body.number("friction")?,
         fixed: body.flag("fixed")?.unwrap_or(plain.fixed),
+        own: weight::own::<S>(&body)?,
     };
     let shape = S::shape(&body)?;
     let pose = S::pose(&body)?;

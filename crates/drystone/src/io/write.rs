@@ -1,6 +1,7 @@
 //! A scene as text.
 
 use super::shapes::{PoseRecord, ShapeRecord, Stored};
+use super::weight::{self, WeightRecord};
 use super::{FORMAT, VERSION};
 use crate::scene::{Body, SceneOf};
 use serde::Serialize;
@@ -13,7 +14,8 @@ struct BodyRecord<'a> {
     shape: ShapeRecord,
     #[serde(flatten)]
     pose: PoseRecord,
-    density: f64,
+    #[serde(flatten)]
+    weight: WeightRecord,
     #[serde(skip_serializing_if = "Option::is_none")]
     friction: Option<f64>,
     fixed: bool,
@@ -42,8 +44,8 @@ pub(crate) fn to_json<S: Stored>(scene: &SceneOf<S>) -> String {
 
 fn body_line<S: Stored>(body: &Body<S>) -> String {
     let (shape, pose) = S::record(body);
-    let record =
-        BodyRecord { name: &body.name, shape, pose, density: body.density, friction: body.friction, fixed: body.fixed };
+    let weight = weight::record(body);
+    let record = BodyRecord { name: &body.name, shape, pose, weight, friction: body.friction, fixed: body.fixed };
     let text = serde_json::to_string(&record).expect("a record of names and finite numbers");
     format!("    {text}")
 }

@@ -3,7 +3,8 @@
 use super::entry::{SceneEntry, friction, integer};
 use crate::error::SceneError;
 use crate::geometry::{PoseInSpace, Shape};
-use crate::scene::{BodyOptions, Scene};
+use crate::mass_properties::MassProperties;
+use crate::scene::{Body, BodyOptions, Scene};
 use crate::scene_in_space::SceneInSpace;
 
 /// Gravity of the built-in scenes in space, m/s^2.
@@ -79,12 +80,9 @@ pub fn extruded(scene: &Scene, depth: f64) -> Result<SceneInSpace, SceneError> {
         solid = solid.with_contact_tolerance(tolerance)?;
     }
     for body in scene.bodies() {
-        let options = BodyOptions {
-            name: Some(body.name.clone()),
-            density: body.density / depth,
-            friction: body.friction,
-            fixed: body.fixed,
-        };
+        let density = if body.own.mass.is_some() { 1.0 } else { body.density / depth };
+        let (friction, fixed, own) = (body.friction, body.fixed, thickened(body, depth));
+        let options = BodyOptions { name: Some(body.name.clone()), density, friction, fixed, own };
         let ([x, y], (sin, cos)) = (body.pose.position, (0.5 * body.pose.angle).sin_cos());
         let pose = PoseInSpace { position: [x, 0.0, y], orientation: [cos, 0.0, -sin, 0.0] };
         match body.box_size {
@@ -98,6 +96,20 @@ pub fn extruded(scene: &Scene, depth: f64) -> Result<SceneInSpace, SceneError> {
         };
     }
     Ok(solid)
+}
+
+/// What a block weighs once it has a thickness. A moment of its own is that of its plane figure times a factor, which
+/// the figure's other moments take on as well.
+fn thickened(body: &Body, depth: f64) -> MassProperties {
+    let center_of_mass = body.own.center_of_mass.map(|_| [0.0; 3]);
+    let inertia = body.own.inertia.map(|_| {
+        let [xx, yy, xy] = body.shape.second_moments();
+        let factor = body.inertia() / (xx + yy);
+        let slab = body.mass() * depth * depth / 12.0;
+        let (x, z, across) = (factor * yy + slab, factor * xx + slab, -factor * xy);
+        [[x, 0.0, across], [0.0, body.inertia(), 0.0], [across, 0.0, z]]
+    });
+    MassProperties { mass: body.own.mass, center_of_mass, inertia }
 }
 
 struct Builder {

@@ -23,7 +23,7 @@ impl Moving for Solid {
 
     fn advanced(body: &Body<Self>, [vx, vy, vz, a, b, c]: &[f64; 6], seconds: f64) -> PoseInSpace {
         let [x, y, z] = body.pose.position;
-        let [first, second, third] = body.shape.principal_axes();
+        let [first, second, third] = body.principal_axes();
         PoseInSpace {
             position: [x + seconds * vx, y + seconds * vy, z + seconds * vz],
             orientation: body.pose.turned(seconds * (*a * first + *b * second + *c * third)).orientation,
@@ -85,7 +85,7 @@ impl Moving for Solid {
 
 /// The principal axes in the world.
 fn world_axes(body: &Body<Solid>) -> [Vector3; 3] {
-    body.shape.principal_axes().map(|axis| body.pose.rotate(axis))
+    body.principal_axes().map(|axis| body.pose.rotate(axis))
 }
 
 /// Newton's iterations for a free turn. Three are the rule; a body that turns by more than a radian in the step takes more.

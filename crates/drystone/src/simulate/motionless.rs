@@ -10,7 +10,7 @@ use crate::{
 
 /// Fixed bodies, and those that end the step slower than [`AT_REST`] times what gravity gives in one step (1 m/s^2
 /// without gravity). That is the measure of `check`: a block that would accelerate by less is at rest there too. The speed of the
-/// corner furthest from the centroid counts for turning.
+/// corner furthest from the centre of mass counts for turning.
 pub(super) fn motionless_bodies<S: Moving>(scene: &SceneOf<S>, velocities: &[S::Velocity], dt: f64) -> Vec<bool> {
     let gravity = Some(norm(scene.gravity().as_ref())).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
     let slow = AT_REST * gravity * dt;

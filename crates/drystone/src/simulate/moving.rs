@@ -58,7 +58,7 @@ pub(super) fn masses<S: Moving>(body: &Body<S>) -> S::Velocity {
     let mut masses = S::Velocity::default();
     let (along, turning) = split_mut::<S>(&mut masses);
     along.fill(body.mass());
-    turning.iter_mut().zip(body.shape.moments()).for_each(|(entry, moment)| *entry = body.density * moment);
+    turning.copy_from_slice(body.moments());
     masses
 }
 

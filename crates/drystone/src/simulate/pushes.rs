@@ -19,7 +19,7 @@ impl<S: Moving> World<S> {
         Ok(())
     }
 
-    /// Pushes a block during the next step with a force (N) at a point (world coordinates, metres; the centroid without
+    /// Pushes a block during the next step with a force (N) at a point (world coordinates, metres; the centre of mass without
     /// one) and a moment: `wrench` has both, in world axes, as velocities have. Pushes add up, and end with the step.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl<S: Moving> World<S> {
         wrench: S::Velocity,
         at: Option<S::Vector>,
     ) -> Result<(), SimulationError> {
-        let (i, wrench) = self.about_centroid(name, "force", wrench, at)?;
+        let (i, wrench) = self.about_center(name, "force", wrench, at)?;
         self.forces[i].as_mut().iter_mut().zip(wrench.as_ref()).for_each(|(sum, f)| *sum += f);
         Ok(())
     }
@@ -46,14 +46,14 @@ impl<S: Moving> World<S> {
         wrench: S::Velocity,
         at: Option<S::Vector>,
     ) -> Result<(), SimulationError> {
-        let (i, wrench) = self.about_centroid(name, "impulse", wrench, at)?;
+        let (i, wrench) = self.about_center(name, "impulse", wrench, at)?;
         let change = self.inverse_mass[i].as_ref().iter().zip(wrench.as_ref());
         self.velocities[i].as_mut().iter_mut().zip(change).for_each(|(v, (inverse, p))| *v += inverse * p);
         Ok(())
     }
 
-    /// A wrench at a point as one at the centroid, its moment about the body's own axes.
-    fn about_centroid(
+    /// A wrench at a point as one at the centre of mass, its moment about the body's own axes.
+    fn about_center(
         &self,
         name: &str,
         quantity: &'static str,

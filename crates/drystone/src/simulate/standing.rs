@@ -147,7 +147,7 @@ fn upward<S: Moving>(scene: &SceneOf<S>) -> Vec<usize> {
 }
 
 /// `-M v*`, and the unit in which each entry's imbalance is measured: what gives the body the largest speed of all, at its
-/// centroid or at its radius of gyration.
+/// centre of mass or at its radius of gyration.
 fn loads<S: Moving>(scene: &SceneOf<S>, free: &[S::Velocity]) -> (Vec<f64>, Vec<f64>) {
     let fastest = free.iter().flat_map(|v| v.as_ref()).fold(0.0, |most: f64, v| v.abs().max(most));
     let speed = if fastest > 0.0 { fastest } else { 1.0 };

@@ -181,7 +181,7 @@ impl<S: Moving> World<S> {
         bodies.map(|(body, velocity)| S::to_world_axes(body, velocity)).collect()
     }
 
-    /// Place of every body: the centroid, metres, and the angle, radians; in space a unit quaternion (w, x, y, z).
+    /// Place of every body: the centre of mass, metres, and the angle, radians; in space a unit quaternion (w, x, y, z).
     pub fn poses(&self) -> impl Iterator<Item = S::Place> {
         self.scene.bodies().iter().map(|body| S::place_of(&body.pose))
     }
