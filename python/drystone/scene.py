@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 from warnings import warn
 
@@ -290,9 +291,31 @@ class Scene:
         return Scene._of(self._core.extruded(depth))
 
     @classmethod
+    def from_compas(cls, assembly: Any, **options: Any) -> Scene:
+        """The scene of a COMPAS assembly, model or mesh: a file, or the object itself.
+
+        `options` are those of `drystone.imports.load`, whose `Imported` also says what was left
+        out or taken otherwise than given. compas need not be installed.
+        """
+        from drystone.imports import load
+
+        return load(assembly, **options).scene
+
+    @classmethod
     def load(cls, path: str | PathLike[str]) -> Scene:
-        """Read a scene file (JSON, see docs/scene.schema.json)."""
-        return cls._of(_core.Scene.load(fspath(path)))
+        """Read a scene file (JSON, see docs/scene.schema.json).
+
+        Files of other tools are for `drystone.imports.load`; the SceneError says so.
+        """
+        try:
+            return cls._of(_core.Scene.load(fspath(path)))
+        except _core.SceneError:
+            from drystone.imports.foreign import advice
+
+            said = advice(Path(path))
+            if said is None:
+                raise
+            raise _core.SceneError(said) from None
 
     @classmethod
     def from_json(cls, text: str) -> Scene:
@@ -300,7 +323,14 @@ class Scene:
         return cls._of(_core.Scene.from_json(text))
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the scene as JSON. The file is replaced whole or not at all."""
+        """Write the scene as JSON. The file is replaced whole or not at all.
+
+        SceneError for a name that says something else, such as one in .stl.
+        """
+        from drystone.imports.foreign import lies
+
+        if lies(Path(path)):
+            raise _core.SceneError(f"{fspath(path)}: a scene is JSON: let its name end in .json")
         self._core.save(fspath(path))
 
     def to_json(self) -> str:

@@ -392,19 +392,29 @@ def model(tmp_path: Path) -> Path:
 
 
 def test_mjcf(model: Path) -> None:
-    imported = load(model)
+    with pytest.raises(FormatError, match=r"door hangs on a hinge joint.*joints='fixed'"):
+        load(model)
+    imported = load(model, joints="fixed")
     found = bodies(imported)
     assert list(found) == ["step", "crate", "piece", "door", "wall", "floor"]
-    assert {name for name, body in found.items() if body.fixed} == {"step", "wall", "floor"}
+    fixed = {"step", "door", "wall", "floor"}
+    assert {name for name, body in found.items() if body.fixed} == fixed
     assert {body.friction for body in found.values()} == {0.8}
     assert corners(imported, "step") == box_at((-4, 0, 1), (2, 2, 2))
     crate = sorted(box_at((0, 0, 1), (2, 1, 1)) + box_at((0, 0, 1.75), (2, 1, 0.5)))
     assert corners(imported, "crate") == crate
-    # Two cubic metres of 500 kg/m^3 and one of 2000.
-    assert found["crate"].density * found["crate"].volume == pytest.approx(3000)
+    # Two cubic metres of 500 kg/m^3, one of 2000, and a ball, which weighs although it is left out.
+    ball = 500 * 4 / 3 * np.pi
+    assert found["crate"].mass == pytest.approx(3000 + ball)
+    own = imported.scene.body("crate")
+    assert own.mass == pytest.approx(3000 + ball)
+    high = (1000 * 1 + 2000 * 1.75 + ball * 1) / (3000 + ball)
+    assert own.center_of_mass == pytest.approx((0, 0, high))
     # The hull of an L is a box without a corner: 8 (4 - 1 / 2).
     assert found["piece"].volume == pytest.approx(8 * 3.5)
-    assert found["piece"].density * found["piece"].volume == pytest.approx(3)
+    assert found["piece"].mass == pytest.approx(3)
+    # It weighs as the L does: its centre of mass is that of three cubes of two metres.
+    assert imported.scene.body("piece").center_of_mass == pytest.approx((4 + 10 / 6, 10 / 6, 1))
     assert imported.scene.gravity == (0, 0, -5)
     top = max(point[2] for point in corners(imported, "floor"))
     assert top == 0
@@ -412,14 +422,14 @@ def test_mjcf(model: Path) -> None:
         "actuator (2)": ONLY,
         "sphere geom of crate 2": ONLY,
         "flexcomp in the world": ONLY,
-        "hinge joint of door": "the body is taken as free",
         "box geom of ghost 1": "it collides with nothing",
         "body ghost": "it has no box and no mesh that collides",
     }
     assert imported.messages == [
-        "crate: geoms of different densities: its mass is kept, but spread evenly",
+        "door: its hinge joint is welded, to the world",
         "friction: the smaller coefficient of two bodies counts, in MuJoCo the larger",
         "floor: a plane, taken as a fixed box under the others",
+        "the scene lacks 1 of the file's bodies: body ghost",
     ]
 
 
@@ -451,13 +461,18 @@ def test_mjcf_orientations(turn: str, size: tuple[float, float, float], tmp_path
         ('<geom type="mesh" mesh="none"/>', "no mesh is called 'none'"),
         ('<geom type="box" size="1 1 1" class="none"/>', "no default class is called 'none'"),
         ('<geom type="box" size="1 1 1" quat="0 0 0 0"/>', "orientation"),
-        ('<geom type="box" size="1 1 1" mass="0"/>', "mass must be positive"),
-        ('<geom type="box" size="1 1 nan"/>', "needs 3 numbers"),
+        ('<geom type="box" size="1 1 1" mass="-1"/>', "mass must not be negative"),
+        ('<geom type="box" size="1 1 nan"/>', "needs finite numbers"),
+        ('<include file="none.xml"/>', "includes 'none.xml', and there is no such file"),
+        ('<include file="a.xml"/>', "as file number 100, or itself"),
+        ('<geom type="mesh" mesh="cone"/>', "builtin mesh 'cone' is not known"),
+        ('<body><freejoint/><geom type="box" size="1 1 1" mass="0"/></body>', "weighs nothing"),
     ],
 )
 def test_broken_mjcf(body: str, says: str, tmp_path: Path) -> None:
     path = tmp_path / "a.xml"
-    path.write_text(f"<mujoco><worldbody>{body}</worldbody></mujoco>")
+    asset = '<asset><mesh name="cone" builtin="cone" params="8 1"/></asset>'
+    path.write_text(f"<mujoco>{asset}<worldbody>{body}</worldbody></mujoco>")
     with pytest.raises(FormatError, match=says) as caught:
         load(path)
     assert str(path) in str(caught.value)
@@ -501,7 +516,9 @@ def test_urdf(tmp_path: Path) -> None:
     (tmp_path / "urdf").mkdir()
     trimesh.creation.box((1, 1, 1)).export(tmp_path / "meshes" / "foot.stl")
     (tmp_path / "urdf" / "table.urdf").write_text(URDF)
-    imported = load(tmp_path / "urdf" / "table.urdf")
+    with pytest.raises(FormatError, match="arm hangs on a revolute joint"):
+        load(tmp_path / "urdf" / "table.urdf")
+    imported = load(tmp_path / "urdf" / "table.urdf", joints="fixed")
     base, top = imported.bodies
     assert (base.name, base.fixed, base.density) == ("base", True, 1000.0)
     assert corners(imported, "base") == box_at((0, 0, 0.5), (1, 1, 1))
@@ -509,16 +526,14 @@ def test_urdf(tmp_path: Path) -> None:
     assert corners(imported, "top") == sorted(
         box_at((0, 0, 3), (2, 1, 0.5)) + box_at((0, 0, 4), (2, 1, 1))
     )
-    assert top.density * top.volume == pytest.approx(8)
+    assert top.mass == pytest.approx(8)
+    # 7 kg where the link stands, 1 kg a metre above it.
+    assert imported.scene.body("top").center_of_mass == pytest.approx((0, 0, 3 + 1 / 8))
     assert left_out(imported) == {
         "cylinder, collision 1 of top": "only boxes and meshes are taken",
-        "revolute joint d": "arm is taken as free, where the joint is at zero",
-        "link arm": "it has no box and no mesh that collides",
         "transmission (1)": "only links and fixed joints are taken",
     }
-    assert imported.messages == [
-        "top: its mass is kept; centre of mass and inertia are those of its shape"
-    ]
+    assert imported.messages == ["arm: its revolute joint is welded, to top"]
 
 
 @pytest.mark.parametrize(

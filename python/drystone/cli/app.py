@@ -16,6 +16,7 @@ from drystone.cli.options import (
     Facets,
     File,
     Formulation,
+    Joints,
     Picture,
     Reuse,
     Split,
@@ -253,6 +254,13 @@ def import_(
             "its groups, or all of it as one (none)."
         ),
     ] = None,
+    hull: Annotated[bool, typer.Option("--hull", help="Take the convex hulls of meshes.")] = False,
+    joints: Annotated[
+        Joints,
+        typer.Option(
+            help="Joints of MJCF and URDF that turn or slide: an error, or welded (fixed)."
+        ),
+    ] = Joints.error,
     as_json: AsJson = False,
 ) -> int:
     """Make a scene of another tool's assembly, and say what was taken and what was left out."""
@@ -273,6 +281,8 @@ def import_(
         max_pieces=max_pieces,
         simplify=simplify,
         split=None if split is None else split.value,
+        hull=hull,
+        joints=joints.value,
     )
 
 

@@ -79,6 +79,13 @@ class Up(str, Enum):
     z = "z"
 
 
+class Joints(str, Enum):
+    """What is done with joints that turn or slide."""
+
+    error = "error"
+    fixed = "fixed"
+
+
 class Split(str, Enum):
     """What of a mesh file becomes a body."""
 

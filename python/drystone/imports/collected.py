@@ -10,6 +10,7 @@ import numpy as np
 
 from drystone._core import SceneError
 from drystone.imports.pose import Pose
+from drystone.imports.weight import Weight
 from drystone.meshes.hull import hull_volume
 
 if TYPE_CHECKING:
@@ -38,11 +39,24 @@ class ImportedBody:
     fixed: bool
     density_factor: float = 1.0
     """What makes the pieces weigh as much as the mesh that they were simplified from."""
+    weight: Weight | None = None
+    """Of its own, apart from its shape. Its pieces may overlap then, and the density is the mean
+    over the sum of their volumes."""
 
     @property
     def volume(self) -> float:
-        """Cubic metres, of the mesh if it was simplified."""
+        """Cubic metres, of the mesh if it was simplified; pieces that overlap count in full."""
         return self.density_factor * sum(hull_volume(piece) for piece in self.pieces)
+
+    @property
+    def mass(self) -> float:
+        """Kilograms."""
+        return self.density * self.volume if self.weight is None else self.weight.mass
+
+    def with_density(self, density: float) -> ImportedBody:
+        """The same at so many kg/m^3; a weight of its own keeps its distribution."""
+        weight = self.weight and self.weight.scaled(density / self.density)
+        return replace(self, density=density, weight=weight)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +88,8 @@ class Collected:
     """The farthest that a vertex may be off, as far as the numbers of meshes show it."""
     mesh_tolerance: float | None = None
     """How far vertices of meshes may be off at least, as the user says."""
+    lacking: list[str] = field(default_factory=list)
+    """Bodies of the file that the scene is without."""
     _planes: list[_Plane] = field(default_factory=list)
 
     def add(
@@ -86,12 +102,16 @@ class Collected:
         fixed: bool = False,
         density_factor: float = 1.0,
         tolerance: float = 0.0,
+        weight: Weight | None = None,
     ) -> None:
         """One rigid body; a name that is taken gets a number. Its vertices are off by no more than
-        `tolerance`."""
+        `tolerance`; a `weight` takes the place of the density."""
         self.inexact = max(self.inexact, tolerance)
         density = DENSITY if density is None else density
-        body = ImportedBody(self._free(name), pieces, density, friction, fixed, density_factor)
+        if weight is not None:
+            density = weight.mass / sum(hull_volume(piece) for piece in pieces)
+        name = self._free(name)
+        body = ImportedBody(name, pieces, density, friction, fixed, density_factor, weight)
         self.bodies.append(body)
 
     def add_plane(self, name: str, pose: Pose, friction: float | None = None) -> None:
@@ -101,6 +121,11 @@ class Collected:
     def leave_out(self, what: str, why: str) -> None:
         """Note something that was not taken."""
         self.left_out.append(LeftOut(what, why))
+
+    def lack(self, what: str, why: str) -> None:
+        """Note a body that could not be taken, so that the scene is without it."""
+        self.lacking.append(what)
+        self.leave_out(what, why)
 
     def say(self, about: str, messages: Iterable[str]) -> None:
         """Note what was done to a body."""
@@ -115,7 +140,9 @@ class Collected:
     def set_densities(self, densities: Mapping[str, float]) -> None:
         """Give bodies densities (kg/m^3) by name; FormatError for a name that is not there."""
         self._refuse_unknown(densities)
-        self.bodies = [replace(b, density=densities.get(b.name, b.density)) for b in self.bodies]
+        self.bodies = [
+            b.with_density(densities[b.name]) if b.name in densities else b for b in self.bodies
+        ]
 
     def set_frictions(self, frictions: Mapping[str, float]) -> None:
         """Give bodies coefficients by name; FormatError for a name that is not there."""
@@ -144,14 +171,21 @@ class Collected:
         self.add("ground", [_slab(pose, points)], fixed=True)
 
     def transform(self, scale: float, rotation: NDArray[np.float64]) -> None:
-        """Scale lengths and turn everything; densities are kg/m^3 before and after."""
+        """Scale lengths and turn everything; densities (kg/m^3) and masses (kg) stay."""
         self.extent *= scale
         self.inexact *= scale
         if self.gravity is not None:
             x, y, z = (scale * rotation @ np.array(self.gravity)).tolist()
             self.gravity = (x, y, z)
+        pose = Pose(np.zeros(3), rotation)
         self.bodies = [
-            replace(b, pieces=[scale * p @ rotation.T for p in b.pieces]) for b in self.bodies
+            replace(
+                b,
+                pieces=[scale * p @ rotation.T for p in b.pieces],
+                density=b.density if b.weight is None else b.density / scale**3,
+                weight=b.weight and b.weight.placed(pose, scale),
+            )
+            for b in self.bodies
         ]
 
     def _refuse_unknown(self, names: Iterable[str]) -> None:

@@ -1,89 +1,176 @@
-"""Assemblies of COMPAS (https://compas.dev), as `compas.json_dump` writes them.
+"""Assemblies of COMPAS (https://compas.dev), as `compas.json_dump` writes them, or as objects.
 
 An assembly is a graph: its nodes hold blocks, which are meshes of polygons, and say whether the
-block is a support. Interfaces between blocks, on its edges, are not read: contacts are found anew.
+block is a support. A model of compas_dem holds elements instead, with materials. Interfaces between
+blocks, on edges, are not read: contacts are found anew.
 """
 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from drystone.imports.collected import Collected, FormatError
+from drystone.imports.compas_data import inner, kind_of, matrix_of
 from drystone.imports.fields import entries, finite
-from drystone.meshes import MeshError, part_of
-from drystone.meshes.rounding import assumed
+from drystone.meshes import MeshError
+from drystone.meshes.part import Part, part_from
+from drystone.meshes.reading import Triangles
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+PLANE = 3e-7
+"""A face whose corners are within this share of its extent of a plane is plane: five times the
+rounding of single precision, as for meshes."""
 
 
 def is_assembly(data: Any) -> bool:
-    """Whether JSON data is an assembly (of COMPAS 2, or of COMPAS 1 with its other keys)."""
-    if not isinstance(data, dict):
-        return False
-    return str(data.get("dtype", data.get("datatype", ""))).rsplit("/", 1)[-1].endswith("Assembly")
+    """Whether JSON data is an assembly (of COMPAS 2, or of COMPAS 1 with its other keys), a model
+    of compas_model or compas_dem, or one mesh."""
+    kind = kind_of(data)
+    if kind.endswith(("Assembly", "Model")) or kind == "Mesh":
+        return True
+    found = data.get("data", data.get("value")) if kind else None
+    return isinstance(found, dict) and {"elements", "graph"} <= found.keys()
 
 
-def read(data: Any, collected: Collected, max_pieces: int) -> None:
-    """Add an assembly's blocks, named by their keys in the graph."""
-    graph = _inner(_inner(data).get("graph"))
+def read(data: Any, collected: Collected, **options: Any) -> str:
+    """Add the blocks of an assembly or a model, and return the name of the format. The `options`
+    are those of `read_part`."""
+    if kind_of(data) == "Mesh":
+        _add(collected, "mesh", data, None, options)
+        return "COMPAS mesh"
+    found = inner(data)
+    if "elements" in found:
+        _read_model(found, collected, options)
+        return "COMPAS model"
+    graph = inner(found.get("graph"))
     nodes = entries(graph.get("node"), "the assembly's graph has no nodes")
     for key, node in nodes.items():
         block = node.get("block") if isinstance(node, dict) else None
         if block is None:
             collected.leave_out(f"node {key}", "it has no block")
             continue
-        vertices, triangles = _mesh(_inner(block), key)
-        try:
-            part = part_of(
-                key,
-                vertices,
-                triangles,
-                max_pieces=max_pieces,
-                exact=assumed(vertices, tolerance=collected.mesh_tolerance),
-            )
-        except MeshError as error:
-            raise MeshError(f"block {key}: {error}") from None
-        collected.say(f"block {key}", part.messages)
         density = node.get("density")
-        collected.add(
+        _add(
+            collected,
             key,
-            part.pieces,
+            block,
+            None,
+            options,
             density=None if density is None else finite(density, f"block {key}: density"),
             fixed=bool(node.get("is_support")),
-            tolerance=part.tolerance,
+        )
+    _interfaces(graph, collected)
+    return "COMPAS assembly"
+
+
+def _read_model(model: dict[str, Any], collected: Collected, options: dict[str, Any]) -> None:
+    """The elements of a model, named by their graph nodes or their place in it."""
+    materials = model.get("materials") or {}
+    whole = matrix_of(model.get("transformation"))
+    graph = inner(model.get("graph") or {})
+    names = {
+        str(node.get("element")): str(key)
+        for key, node in (graph.get("node") or {}).items()
+        if isinstance(node, dict)
+    }
+    elements = entries(model.get("elements"), "the model has no elements")
+    for number, (guid, element) in enumerate(elements.items()):
+        fields = inner(element)
+        name = names.get(str(guid), str(number))
+        geometry = fields.get("geometry")
+        if kind_of(geometry) != "Mesh":
+            collected.lack(f"element {name}", "its geometry is no mesh")
+            continue
+        _add(
+            collected,
+            name,
+            geometry,
+            whole @ matrix_of(fields.get("transformation")),
+            options,
+            density=_density(fields.get("material"), materials, name),
+            fixed=bool(fields.get("is_support")),
         )
     _interfaces(graph, collected)
 
 
-def _inner(value: Any) -> dict[str, Any]:
-    """The data of a COMPAS object, with or without its wrapping."""
-    if not isinstance(value, dict):
-        raise FormatError("not a COMPAS assembly: an object is missing in it")
-    for key in ("data", "value"):
-        if key in value and ("dtype" in value or "datatype" in value):
-            return _inner(value[key])
-    return value
+def _density(material: Any, materials: Any, name: str) -> float | None:
+    """kg/m^3 of a material, or of the one with that key."""
+    if isinstance(material, str) and isinstance(materials, dict):
+        material = materials.get(material)
+    density = inner(material).get("density") if isinstance(material, dict) else None
+    return None if density is None else finite(density, f"element {name}: density")
 
 
-def _mesh(block: dict[str, Any], key: str) -> tuple[Any, Any]:
-    """Vertices (k, 3), and triangles (n, 3) in fans from the first corner of each polygon."""
+def _add(
+    collected: Collected,
+    name: str,
+    block: Any,
+    place: NDArray[np.float64] | None,
+    options: dict[str, Any],
+    **body: Any,
+) -> None:
+    vertices, triangles, said = _mesh(inner(block), name)
+    if place is not None:
+        vertices = vertices @ place[:3, :3].T + place[:3, 3]
+    try:
+        read = Triangles(name, vertices, triangles, repeats=False)
+        part: Part = part_from(read, tolerance=collected.mesh_tolerance, **options)
+    except MeshError as error:
+        raise MeshError(f"block {name}: {error}") from None
+    collected.say(f"block {name}", [*said, *part.messages])
+    factor, tolerance = part.density_factor, part.tolerance
+    collected.add(name, part.pieces, density_factor=factor, tolerance=tolerance, **body)
+
+
+def _mesh(block: dict[str, Any], key: str) -> tuple[Any, Any, list[str]]:
+    """Vertices (k, 3), triangles (n, 3), and what was done to the faces."""
     points = entries(block.get("vertex"), f"block {key} has no vertices")
     numbers = {str(vertex): number for number, vertex in enumerate(points)}
     vertices = [
         [finite(point.get(axis, 0.0), f"block {key}: vertex {vertex}") for axis in "xyz"]
         for vertex, point in points.items()
     ]
-    triangles = []
+    triangles: list[list[int]] = []
+    warped, farthest = 0, 0.0
     for face, corners in entries(block.get("face"), f"block {key} has no faces").items():
         try:
-            first, *others = [numbers[str(corner)] for corner in corners]
+            ring = [numbers[str(corner)] for corner in corners]
         except (KeyError, TypeError, ValueError):
             raise FormatError(
                 f"block {key}: face {face} uses vertices that are not there"
             ) from None
-        triangles += [[first, *pair] for pair in pairwise(others)]
-    return np.array(vertices, dtype=float), np.array(triangles, dtype=np.int64).reshape(-1, 3)
+        off = _off_plane(np.array([vertices[corner] for corner in ring]).reshape(-1, 3))
+        if not off:
+            triangles += [[ring[0], *pair] for pair in pairwise(ring[1:])]
+            continue
+        # From its middle, so that both blocks at a face fill it alike and no triangle folds over.
+        warped, farthest = warped + 1, max(farthest, off)
+        middle = np.mean([vertices[corner] for corner in ring], axis=0)
+        triangles += [[len(vertices), *pair] for pair in pairwise([*ring, ring[0]])]
+        vertices.append(middle.tolist())
+    said = []
+    if warped:
+        said.append(
+            f"{warped} of its faces are not plane, by up to {farthest:.2g} in its unit: they are "
+            "filled with triangles from their middle"
+        )
+    triangles_of = np.array(triangles, dtype=np.int64).reshape(-1, 3)
+    return np.array(vertices, dtype=float), triangles_of, said
+
+
+def _off_plane(corners: NDArray[np.float64]) -> float:
+    """How far corners are from their plane; 0 if that is rounding."""
+    if len(corners) < 4 or not np.isfinite(corners).all():
+        return 0.0
+    arms = corners - corners.mean(axis=0)
+    normal = np.linalg.svd(arms)[2][2]
+    off = float(abs(arms @ normal).max())
+    return off if off > PLANE * float(np.ptp(corners, axis=0).max()) else 0.0
 
 
 def _interfaces(graph: dict[str, Any], collected: Collected) -> None:

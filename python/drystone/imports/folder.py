@@ -25,33 +25,24 @@ MANIFEST = "manifest.json"
 FIELDS = {"name", "file", "position", "orientation", "scale", "density", "friction", "fixed"}
 
 
-def read(
-    folder: Path, collected: Collected, max_pieces: int, simplify: float | None = None
-) -> None:
-    """Add the parts in a folder; `simplify` is in their unit of length."""
+def read(folder: Path, collected: Collected, **options: Any) -> None:
+    """Add the parts in a folder; `options` are those of `read_part`, lengths in the parts' unit."""
     if (folder / MANIFEST).exists():
-        read_manifest(folder / MANIFEST, collected, max_pieces, simplify)
+        read_manifest(folder / MANIFEST, collected, **options)
         return
     files = sorted((p for p in folder.iterdir() if p.suffix.lower() in ENDINGS), key=_natural)
     if not files:
         raise FormatError(f"{folder}: no mesh files in it ({', '.join(ENDINGS)}) and no {MANIFEST}")
     poses = _asap_poses(folder)
     for file in files:
-        part = read_part(
-            file,
-            max_pieces=max_pieces,
-            simplify=simplify,
-            tolerance=collected.mesh_tolerance,
-        )
+        part = read_part(file, tolerance=collected.mesh_tolerance, **options)
         _add(collected, part, poses.get(file.stem, Pose.identity()))
     for name in sorted(poses.keys() - {file.stem for file in files}):
         collected.leave_out(f"part {name} of config.json", "there is no mesh of that name")
 
 
-def read_manifest(
-    path: Path, collected: Collected, max_pieces: int, simplify: float | None = None
-) -> None:
-    """Add the parts that a manifest lists; their files are beside it. `simplify` is in its unit."""
+def read_manifest(path: Path, collected: Collected, **options: Any) -> None:
+    """Add the parts that a manifest lists; their files are beside it. `options` as for `read`."""
     manifest = entries(read_json(path), f"{path}: a manifest is an object with a list of parts")
     parts = manifest.get("parts")
     if not isinstance(parts, list) or not parts:
@@ -59,7 +50,7 @@ def read_manifest(
     for key in sorted(manifest.keys() - {"parts"}):
         collected.leave_out(f"{key!r} in {path.name}", "no field of a manifest")
     for number, part in enumerate(parts):
-        _add_listed(path, f"{path}: part {number}", part, collected, max_pieces, simplify)
+        _add_listed(path, f"{path}: part {number}", part, collected, options)
 
 
 def _add_listed(
@@ -67,8 +58,7 @@ def _add_listed(
     what: str,
     part: Any,
     collected: Collected,
-    max_pieces: int,
-    simplify: float | None,
+    options: dict[str, Any],
 ) -> None:
     fields = entries(part, f"{what} must be an object with a file")
     unknown = sorted(fields.keys() - FIELDS)
@@ -92,21 +82,20 @@ def _add_listed(
         path.parent / file,
         name=name,
         scale=scale,
-        max_pieces=max_pieces,
-        simplify=simplify,
         tolerance=collected.mesh_tolerance,
+        **options,
     )
     position = numbers(fields.get("position", [0, 0, 0]), 3, f"{what}: position")
     turned = numbers(fields.get("orientation", [1, 0, 0, 0]), 4, f"{what}: orientation")
     if not any(turned):
         raise FormatError(f"{what}: orientation must be a quaternion (w, x, y, z), not zeros")
-    options = {
+    own = {
         key: finite(fields[key], f"{what}: {key}")
         for key in ("density", "friction")
         if key in fields
     }
     pose = Pose(np.array(position), from_quaternion(turned))
-    _add(collected, read, pose, fixed=fields.get("fixed", False), **options)
+    _add(collected, read, pose, fixed=fields.get("fixed", False), **own)
 
 
 def _add(collected: Collected, part: Part, pose: Pose, **options: Any) -> None:

@@ -8,12 +8,14 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drystone.imports import compas, folder, mesh, mjcf, urdf
+from drystone._core import SceneError
+from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.fields import read_json
 from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
-from drystone.meshes import MOST_PIECES, MeshError
+from drystone.imports.rigid import JOINTS
+from drystone.meshes import MOST_PIECES, MeshError, Part, read_part
 from drystone.meshes.reading import ENDINGS
 
 if TYPE_CHECKING:
@@ -28,6 +30,9 @@ TOUCHING = 1e-6
 the rounding of single precision, in which many tools keep coordinates."""
 
 
+TWICE = "would count twice"
+"""What the core says of pieces that overlap."""
+
 INEXACT = 1.5
 """Bodies touch within so many times what vertices may be off: three last places. Rounding moves two
 faces by one and three quarters at most, and planes fitted to their corners by little more."""
@@ -38,8 +43,8 @@ class Imported:
     """A scene out of another tool's file, and what became of everything in the file."""
 
     format: str
-    """"COMPAS assembly", "folder of parts", "manifest", "mesh", "mesh of objects", "MJCF" or
-    "URDF"."""
+    """"COMPAS assembly", "COMPAS model", "COMPAS mesh", "folder of parts", "manifest", "mesh",
+    "mesh of objects", "MJCF" or "URDF"."""
     scene: Scene
     bodies: list[ImportedBody]
     left_out: list[LeftOut]
@@ -56,6 +61,7 @@ class Imported:
                     "pieces": len(body.pieces),
                     "volume": body.volume,
                     "density": body.density,
+                    "mass": body.mass,
                     "friction": body.friction,
                     "fixed": body.fixed,
                 }
@@ -67,7 +73,7 @@ class Imported:
 
 
 def load(
-    path: str | PathLike[str],
+    path: str | PathLike[str] | Any,
     *,
     scale: float = 1.0,
     up: str = "z",
@@ -80,8 +86,12 @@ def load(
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
     split: str | None = None,
+    hull: bool = False,
+    joints: str = "error",
 ) -> Imported:
     """A COMPAS assembly, a folder of part meshes, a manifest, a mesh file, MJCF or URDF as a scene.
+
+    `path` may also be a COMPAS object itself: an assembly, a model or a mesh.
 
     `scale` makes metres of the file's lengths, `up` is the axis ("y" or "z") that points up in
     it. `friction` is for bodies without their own, `density` (kg/m^3) for all bodies, instead of
@@ -97,28 +107,41 @@ def load(
     it; so do the groups (`g`) of an OBJ file without objects. `split="groups"` takes each group as
     a body, `split="none"` all as one.
 
+    `hull` takes the convex hulls of meshes (of MJCF they are taken anyway, as MuJoCo does).
+    `joints="fixed"` welds bodies of MJCF and URDF that hang on joints which turn or slide; by
+    default these are an error. One of their bodies that cannot be taken is left out, and said; the
+    masses, centres of mass and inertias that they give are taken.
+
     Raises FormatError or MeshError, naming the file and the fix, SceneError for bodies that do not
     make a scene (two of them overlap), and OSError for a file that cannot be read.
     """
-    path = Path(fspath(path))
+    live = compas_data.is_live(path)
+    source: Any = path if live else Path(fspath(path))
     if up not in UP:
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
     if not 0 < scale < float("inf"):
         raise FormatError(f"scale must be a positive number, not {scale!r}")
+    if joints not in JOINTS:
+        raise FormatError(f"joints must be 'error' or 'fixed', not {joints!r}")
     # Two bodies touch within it if the surface of each is off by half of it.
     collected = Collected(mesh_tolerance=None if tolerance is None else tolerance / 2 / scale)
     try:
         simplify = None if simplify is None else simplify / scale
-        kind = _read(path, collected, max_pieces, simplify, split)
+        taking = Taking(max_pieces, simplify, hull, joints, density is None)
+        if live:
+            kind = _read_data(compas_data.data_of(source), source, collected, taking)
+        else:
+            kind = _read(source, collected, taking, split)
     except (FormatError, MeshError) as error:
-        if str(path) in str(error):
+        if live or str(source) in str(error):
             raise
-        raise type(error)(f"{path}: {error}") from None
+        raise type(error)(f"{source}: {error}") from None
     collected.measure()
     collected.lay_planes()
     collected.transform(scale, UP[up])
     if not collected.bodies:
-        raise FormatError(f"{path}: nothing in it can be taken{_reasons(collected)}")
+        where = "" if live else f"{source}: "
+        raise FormatError(f"{where}nothing in it can be taken{_reasons(collected)}")
     if ground:
         collected.lay_ground()
     collected.fix(fixed)
@@ -128,57 +151,76 @@ def load(
     if isinstance(friction, Mapping):
         collected.set_frictions(friction)
         friction = FRICTION
+    if collected.lacking:
+        count = len(collected.lacking)
+        collected.messages.append(
+            f"the scene lacks {count} of the file's bodies: {', '.join(collected.lacking[:10])}"
+        )
     scene = _scene(collected, friction, density, gravity, tolerance)
     return Imported(kind, scene, collected.bodies, collected.left_out, collected.messages)
 
 
-def _read(
-    path: Path, collected: Collected, max_pieces: int, simplify: float | None, split: str | None
-) -> str:
-    """Fill `collected` and return the name of the format; `simplify` is in the file's unit."""
+@dataclass(frozen=True, slots=True)
+class Taking:
+    """How bodies of a file are taken."""
+
+    max_pieces: int
+    simplify: float | None
+    """In the file's unit of length."""
+    hull: bool
+    joints: str
+    massless_are_fixed: bool
+
+    def for_meshes(self) -> dict[str, Any]:
+        """The arguments of those who read meshes."""
+        return {"max_pieces": self.max_pieces, "simplify": self.simplify, "hull": self.hull}
+
+
+def _read(path: Path, collected: Collected, taking: Taking, split: str | None) -> str:
+    """Fill `collected` and return the name of the format."""
     ending = path.suffix.lower()
     if ending in ENDINGS and not path.is_dir():
-        return mesh.read(path, collected, max_pieces, simplify, split)
+        return mesh.read(path, collected, split=split, **taking.for_meshes())
     if split is not None:
         raise FormatError(f"{path}: split is for one mesh file")
     if path.is_dir():
-        folder.read(path, collected, max_pieces, simplify)
+        folder.read(path, collected, **taking.for_meshes())
         return "folder of parts"
     if ending == ".json":
-        return _read_json(path, collected, max_pieces, simplify)
+        return _read_json(path, collected, taking)
     if ending in (".xml", ".mjcf", ".urdf"):
-        _refuse(simplify, "MJCF and URDF")
-        return _read_xml(path, collected, max_pieces)
+        return _read_xml(path, collected, taking)
     known = ", ".join((".json", ".xml", ".urdf", *ENDINGS))
     raise FormatError(f"{path}: not known by its name: a folder, or one of {known}")
 
 
-def _refuse(simplify: float | None, formats: str) -> None:
-    if simplify is not None:
-        raise FormatError(f"simplify is for mesh files and folders of them, not for {formats}")
+def _read_json(path: Path, collected: Collected, taking: Taking) -> str:
+    return _read_data(read_json(path), path, collected, taking)
 
 
-def _read_json(path: Path, collected: Collected, max_pieces: int, simplify: float | None) -> str:
-    data = read_json(path)
+def _read_data(data: Any, path: Any, collected: Collected, taking: Taking) -> str:
     if compas.is_assembly(data):
-        _refuse(simplify, "COMPAS assemblies")
-        compas.read(data, collected, max_pieces)
-        return "COMPAS assembly"
+        return compas.read(data, collected, **taking.for_meshes())
     if isinstance(data, dict) and "parts" in data:
-        folder.read_manifest(path, collected, max_pieces, simplify)
+        folder.read_manifest(Path(path), collected, **taking.for_meshes())
         return "manifest"
     if isinstance(data, dict) and "bodies" in data:
         raise FormatError(f"{path}: a scene of drystone already: use it as it is")
     raise FormatError(f"{path}: neither a COMPAS assembly nor a manifest of parts")
 
 
-def _read_xml(path: Path, collected: Collected, max_pieces: int) -> str:
+def _read_xml(path: Path, collected: Collected, taking: Taking) -> str:
     root = read_xml(path)
     if root.tag == "mujoco":
-        mjcf.read(root, path, collected)
+        mjcf.read(root, path, collected, taking.simplify, taking.joints)
         return "MJCF"
     if root.tag == "robot":
-        urdf.read(root, path, collected, max_pieces)
+
+        def read_mesh(file: Path, scale: tuple[float, float, float]) -> Part:
+            tolerance = collected.mesh_tolerance
+            return read_part(file, scale=scale, tolerance=tolerance, **taking.for_meshes())
+
+        urdf.read(root, path, collected, read_mesh, taking.joints, taking.massless_are_fixed)
         return "URDF"
     raise FormatError(f"{path}: <{root.tag}> is neither <mujoco> nor <robot>")
 
@@ -198,14 +240,33 @@ def _scene(
         gravity = collected.gravity or (0.0, 0.0, -9.81)
     scene = Scene(3, gravity, friction, contact_tolerance=tolerance)
     for body in collected.bodies:
-        scene.add_solid(
-            body.pieces,
-            name=body.name,
-            density=(body.density if density is None else density) * body.density_factor,
-            friction=body.friction,
-            fixed=body.fixed,
-        )
+        if density is not None:
+            body = body.with_density(density)
+        try:
+            _add(scene, body, None if body.weight is None else body.weight.mass)
+        except SceneError as error:
+            if not (body.weight is None and TWICE in str(error)):
+                raise
+            # Pieces of a mesh were found to fill its volume: they overlap by rounding only.
+            _add(scene, body, body.mass)
+            collected.messages.append(
+                f"{body.name}: its convex pieces overlap by rounding; its mass is that of the mesh"
+            )
     return scene
+
+
+def _add(scene: Scene, body: ImportedBody, mass: float | None) -> None:
+    weight = body.weight
+    scene.add_solid(
+        body.pieces,
+        name=body.name,
+        density=body.density * body.density_factor,
+        friction=body.friction,
+        fixed=body.fixed,
+        mass=mass,
+        center_of_mass=None if weight is None else weight.center.tolist(),
+        inertia=None if weight is None else weight.inertia,
+    )
 
 
 def _touching(collected: Collected) -> float:

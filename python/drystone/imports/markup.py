@@ -35,6 +35,7 @@ def read_xml(path: Path) -> ET.Element:
         raise FormatError(f"{path}: not an XML file: {error}") from None
     except FormatError as error:
         raise FormatError(f"{path}: {error}") from None
+    _drop_namespaces(root)
     if _depth(root) > DEEPEST:
         raise FormatError(f"{path}: elements more than {DEEPEST} deep")
     return root
@@ -49,6 +50,15 @@ def values(text: str | None, count: int | None, what: str) -> list[float]:
     if (count is not None and len(found) != count) or not all(abs(x) < float("inf") for x in found):
         raise FormatError(f"{what}: needs {count or 'finite'} numbers, not {text!r}")
     return found
+
+
+def _drop_namespaces(root: ET.Element) -> None:
+    """Names as they are without a namespace: formats here have one vocabulary each."""
+    for element in root.iter():
+        if isinstance(element.tag, str):
+            element.tag = element.tag.rpartition("}")[2]
+        for key in [key for key in element.attrib if "}" in key]:
+            element.attrib.setdefault(key.rpartition("}")[2], element.attrib.pop(key))
 
 
 def _depth(root: ET.Element) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from drystone.imports.collected import Collected
 from drystone.meshes.part import read_parts
@@ -11,18 +12,12 @@ from drystone.meshes.part import read_parts
 def read(
     path: Path,
     collected: Collected,
-    max_pieces: int,
-    simplify: float | None = None,
     split: str | None = None,
+    **options: Any,
 ) -> str:
-    """Add the bodies of a file, and return the name of the format; lengths are in its unit."""
-    parts, found = read_parts(
-        path,
-        split=split,
-        max_pieces=max_pieces,
-        simplify=simplify,
-        tolerance=collected.mesh_tolerance,
-    )
+    """Add the bodies of a file, and return the name of the format; lengths are in its unit. The
+    `options` are those of `read_parts`."""
+    parts, found = read_parts(path, split=split, tolerance=collected.mesh_tolerance, **options)
     collected.say(path.name, found.messages)
     for name in found.empty:
         collected.leave_out(f"object {name}", "it has no faces")

@@ -1,28 +1,35 @@
 """MJCF, the scene descriptions of MuJoCo: bodies made of boxes and meshes, and planes.
 
 A body without joints is part of its parent, and fixed if that is the world. Meshes are convex
-hulls, as MuJoCo collides them. The defaults are those of MuJoCo's XML reference.
+hulls, as MuJoCo collides them; geoms of one body may overlap, and masses add up as they are given.
+The defaults are those of MuJoCo's XML reference.
 """
 
 from __future__ import annotations
 
-import math
 import xml.etree.ElementTree as ET
 from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from drystone.imports.collected import Collected, FormatError
 from drystone.imports.markup import values
-from drystone.imports.pose import Pose, box_corners, from_axis_angle, from_euler, from_quaternion
-from drystone.meshes import MeshError, read_part
-from drystone.meshes.hull import hull_corners, hull_volume
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from drystone.imports.mjcf_assets import Defaults, Meshes, given_inertial, mesh_folders, uniform
+from drystone.imports.mjcf_files import included
+from drystone.imports.mjcf_frames import Frames, between
+from drystone.imports.pose import Pose, box_corners
+from drystone.imports.rigid import JointError, Rigid, joint_of
+from drystone.imports.weight import (
+    Weight,
+    of_capsule,
+    of_cylinder,
+    of_ellipsoid,
+    of_pieces,
+    together,
+)
+from drystone.meshes import MeshError
 
 ONLY = "only bodies made of boxes, meshes and planes are taken"
 
@@ -43,33 +50,32 @@ SILENT = {"light", "camera", "site", "joint", "freejoint", "inertial"}
 """What a body may have besides geoms and bodies: nothing to see here, or read elsewhere."""
 
 
-@dataclass(slots=True, eq=False)
-class _Body:
-    """What is rigidly joined together."""
-
-    name: str
-    fixed: bool
-    pieces: list[NDArray[np.float64]] = field(default_factory=list)
-    masses: list[float] = field(default_factory=list)
-    frictions: list[float] = field(default_factory=list)
-
-
-def read(root: ET.Element, path: Path, collected: Collected) -> None:
-    """Add the bodies and planes of a model."""
-    _Model(root, path, collected).read()
+def read(
+    root: ET.Element,
+    path: Path,
+    collected: Collected,
+    simplify: float | None = None,
+    joints: str = "error",
+) -> None:
+    """Add the bodies and planes of a model. A body that cannot be taken is left out, and said."""
+    _Model(included(root, path), path, collected, simplify, joints).read()
 
 
 class _Model:
-    def __init__(self, root: ET.Element, path: Path, collected: Collected) -> None:
-        self.root, self.path, self.collected = root, path, collected
-        compiler = _joined(root, "compiler")
-        self.degrees = compiler.get("angle", "degree") == "degree"
-        self.euler = compiler.get("eulerseq", "xyz")
-        self.mesh_folder = path.parent / compiler.get("meshdir", compiler.get("assetdir", ""))
-        self.classes: dict[str, dict[str, dict[str, str]]] = {"main": {}}
-        for default in root.findall("default"):
-            self._read_class(default, default.get("class", "main"), {})
-        self.meshes = self._meshes()
+    def __init__(
+        self,
+        root: ET.Element,
+        path: Path,
+        collected: Collected,
+        simplify: float | None,
+        joints: str,
+    ) -> None:
+        self.root, self.collected, self.joints = root, collected, joints
+        self.compiler = _joined(root, "compiler")
+        self.frames = Frames.of(self.compiler)
+        self.defaults = Defaults(root)
+        folders = mesh_folders(path, self.compiler)
+        self.meshes = Meshes(root, folders, self.defaults, self.frames, simplify)
         self.unnamed = Counter[str]()
 
     def read(self) -> None:
@@ -79,207 +85,200 @@ class _Model:
         for tag, count in Counter(
             child.tag for child in self.root if child.tag not in READ
         ).items():
-            if tag == "include":
-                raise FormatError("it includes other files: write it as one file first")
             inside = sum(len(section) for section in self.root.findall(tag)) or count
             self.collected.leave_out(f"{tag} ({inside})", ONLY)
+        if "settotalmass" in self.compiler:
+            self.collected.leave_out("settotalmass", "masses are taken as they are given")
         for world in self.root.findall("worldbody"):
-            self._children(world, Pose.identity(), None, "main")
+            self._children(world, Pose.identity(), None, "main", "")
         if self.collected.bodies:
             self.collected.messages.append(
                 "friction: the smaller coefficient of two bodies counts, in MuJoCo the larger"
             )
 
-    def _children(self, parent: ET.Element, pose: Pose, body: _Body | None, inherited: str) -> None:
-        """The geoms and bodies of an element; `body` is what it belongs to, None for the world."""
+    def _children(
+        self, parent: ET.Element, pose: Pose, body: Rigid | None, inherited: str, suffix: str
+    ) -> list[Weight]:
+        """What is in an element; `body` is what it belongs to, None for the world. Returns what the
+        geoms weigh."""
+        weights = []
         for child in parent:
-            if child.tag == "frame":
-                inner = child.get("childclass", inherited)
-                self._children(child, pose.then(self._pose(child.attrib)), body, inner)
-            elif child.tag == "geom":
-                self._geom(child, pose, body, inherited)
+            if child.tag == "geom":
+                weights += self._geom_of(child, pose, body, inherited, suffix)
             elif child.tag == "body":
-                self._body(child, pose, body, inherited)
+                self._body(child, pose, body, inherited, suffix)
+            elif child.tag == "frame":
+                here = pose.then(self.frames.pose(child.attrib))
+                own = child.get("childclass", inherited)
+                weights += self._children(child, here, body, own, suffix)
+            elif child.tag == "replicate":
+                for number, here in self._copies(child, pose):
+                    weights += self._children(child, here, body, inherited, suffix + number)
             elif child.tag not in SILENT:
                 where = "the world" if body is None else body.name
                 self.collected.leave_out(f"{child.tag} in {where}", ONLY)
+        return weights
 
-    def _body(self, element: ET.Element, pose: Pose, parent: _Body | None, inherited: str) -> None:
+    def _copies(self, element: ET.Element, pose: Pose) -> list[tuple[str, Pose]]:
+        """The ending of names, and the frame, of every copy that <replicate> makes."""
+        count = int(values(element.get("count"), 1, "replicate count")[0])
+        if not 0 < count <= MOST_COPIES:
+            raise FormatError(f"replicate count is {count}: give 1 to {MOST_COPIES}")
+        step = self.frames.pose(element.attrib, "offset")
+        copies, here = [], pose
+        for number in range(count):
+            digits = str(number).zfill(len(str(count - 1)))
+            copies.append((element.get("sep", "") + digits, here))
+            here = here.then(step)
+        return copies
+
+    def _body(
+        self, element: ET.Element, pose: Pose, parent: Rigid | None, inherited: str, suffix: str
+    ) -> None:
         inherited = element.get("childclass", inherited)
-        name = element.get("name") or self._number("body")
-        here = pose.then(self._pose(element.attrib))
-        joints = [c for c in element if c.tag in ("joint", "freejoint")]
-        if not joints and parent is not None:
-            self._children(element, here, parent, inherited)
+        own = element.get("name")
+        name = own + suffix if own else self._number("body")
+        here = pose.then(self.frames.pose(element.attrib))
+        joints = [_kind(child) for child in element if child.tag in ("joint", "freejoint")]
+        free = bool(joints) and joints == ["free"]
+        if joints and not free:
+            to = "the world" if parent is None else parent.name
+            joint_of(name, next(k for k in joints if k != "free"), self.joints, self.collected, to)
+        if parent is not None and not free:
+            self._fill(element, here, parent, inherited, suffix, name)
             return
-        for joint in joints:
-            if joint.tag == "joint" and joint.get("type", "hinge") != "free":
-                kind = joint.get("type", "hinge")
-                self.collected.leave_out(f"{kind} joint of {name}", "the body is taken as free")
-        body = _Body(name, fixed=not joints)
-        self._children(element, here, body, inherited)
-        if element.find("inertial") is not None:
-            self.collected.leave_out(
-                f"inertial of {name}", "mass and inertia are those of its geoms"
-            )
-        self._finish(body)
-
-    def _geom(self, element: ET.Element, pose: Pose, body: _Body | None, inherited: str) -> None:
-        geom = {**self._defaults("geom", element.get("class", inherited)), **element.attrib}
-        name = geom.get("name") or self._number("geom" if body is None else f"geom of {body.name}")
-        kind = geom.get("type", "sphere")
-        if geom.get("contype") == "0" and geom.get("conaffinity") == "0":
-            self.collected.leave_out(f"{kind} {name}", "it collides with nothing")
-            return
-        here = pose.then(self._pose(geom))
-        friction = (
-            values(geom["friction"], None, f"{name}: friction")[0] if geom.get("friction") else 1.0
-        )
-        if kind == "plane" and (body is None or body.fixed):
-            self.collected.add_plane(name, here, friction)
-            return
-        piece = self._piece(kind, name, geom)
-        if piece is None:
-            return
-        owner = body or _Body(name, fixed=True)
-        owner.pieces.append(here.apply(piece))
-        owner.masses.append(_mass(geom, name, hull_volume(piece)))
-        owner.frictions.append(friction)
-        if body is None:
-            self._finish(owner)
-
-    def _piece(self, kind: str, name: str, geom: dict[str, str]) -> NDArray[np.float64] | None:
-        if "fromto" in geom or kind not in ("box", "mesh"):
-            why = ONLY
-            self.collected.leave_out(
-                f"{kind} {name}", "given by fromto" if "fromto" in geom else why
-            )
-            return None
-        if kind == "box":
-            half = values(geom.get("size"), 3, f"{name}: size")
-            if min(half) <= 0:
-                raise FormatError(f"{name}: size must be positive, not {geom.get('size')!r}")
-            return box_corners(half)
-        mesh = self.meshes.get(geom.get("mesh", ""))
-        if mesh is None:
-            raise FormatError(f"{name}: no mesh is called {geom.get('mesh')!r}")
-        return self._mesh(mesh)
-
-    def _mesh(self, mesh: dict[str, str]) -> NDArray[np.float64]:
-        x, y, z = values(mesh.get("scale", "1 1 1"), 3, "mesh scale")
-        if "vertex" in mesh:
-            points = np.array(values(mesh["vertex"], None, "mesh vertex"))
-            if points.size % 3 or hull_volume(points.reshape(-1, 3)) <= 0:
-                raise MeshError("vertices of a mesh enclose no volume")
-            return hull_corners(points.reshape(-1, 3) * [x, y, z])
-        if "file" not in mesh:
-            raise FormatError("a mesh needs a file or vertices")
-        return read_part(self.mesh_folder / mesh["file"], scale=(x, y, z), hull=True).pieces[0]
-
-    def _meshes(self) -> dict[str, dict[str, str]]:
-        found = {}
-        for asset in self.root.findall("asset"):
-            for element in asset.findall("mesh"):
-                mesh = {**self._defaults("mesh", element.get("class", "main")), **element.attrib}
-                found[mesh.get("name") or Path(mesh.get("file", "")).stem] = mesh
-        return found
-
-    def _finish(self, body: _Body) -> None:
-        if not body.pieces:
-            self.collected.leave_out(f"body {body.name}", "it has no box and no mesh that collides")
-            return
-        volumes = [hull_volume(piece) for piece in body.pieces]
-        densities = [mass / volume for mass, volume in zip(body.masses, volumes, strict=True)]
-        if max(densities) > (1 + 1e-9) * min(densities) and not body.fixed:
-            self.collected.messages.append(
-                f"{body.name}: geoms of different densities: its mass is kept, but spread evenly"
-            )
-        if max(body.frictions) > min(body.frictions):
-            self.collected.messages.append(
-                f"{body.name}: geoms of different friction: the smallest is taken"
-            )
-        self.collected.add(
-            body.name,
-            body.pieces,
-            density=sum(body.masses) / sum(volumes),
-            friction=min(body.frictions),
-            fixed=body.fixed,
-        )
-
-    def _pose(self, attributes: dict[str, str]) -> Pose:
-        position = values(attributes.get("pos", "0 0 0"), 3, "pos")
-        return Pose(np.array(position), self._rotation(attributes))
-
-    def _rotation(self, attributes: dict[str, str]) -> NDArray[np.float64]:
-        unit = math.pi / 180 if self.degrees else 1.0
+        body = Rigid(name, fixed=not free)
         try:
-            if "quat" in attributes:
-                return from_quaternion(values(attributes["quat"], 4, "quat"))
-            if "euler" in attributes:
-                angles = [unit * x for x in values(attributes["euler"], 3, "euler")]
-                # MuJoCo writes axes that turn along in lower case, SciPy in upper case.
-                return from_euler(self.euler.swapcase(), angles)
-            if "axisangle" in attributes:
-                *axis, angle = values(attributes["axisangle"], 4, "axisangle")
-                return from_axis_angle(axis, unit * angle)
-            if "xyaxes" in attributes:
-                six = np.array(values(attributes["xyaxes"], 6, "xyaxes"))
-                return _from_axes(six[:3], six[3:])
-            if "zaxis" in attributes:
-                return _shortest_turn(np.array(values(attributes["zaxis"], 3, "zaxis")))
-        except (ValueError, FloatingPointError) as error:
-            raise FormatError(f"orientation {attributes}: {error}") from None
-        return np.eye(3)
+            self._fill(element, here, body, inherited, suffix, name)
+            body.finish(self.collected)
+        except JointError:
+            raise
+        except (FormatError, MeshError) as error:
+            self.collected.lack(f"body {name}", str(error))
 
-    def _read_class(self, element: ET.Element, name: str, outer: dict[str, dict[str, str]]) -> None:
-        own = {tag: dict(attributes) for tag, attributes in outer.items()}
-        for child in element:
-            if child.tag != "default":
-                own.setdefault(child.tag, {}).update(child.attrib)
-        self.classes[name] = own
-        for child in element.findall("default"):
-            self._read_class(child, child.get("class", ""), own)
+    def _fill(
+        self,
+        element: ET.Element,
+        here: Pose,
+        body: Rigid,
+        inherited: str,
+        suffix: str,
+        name: str,
+    ) -> None:
+        """Put the geoms of an element into a body, and what they weigh or its <inertial> says."""
+        inertial = element.find("inertial")
+        use = self.compiler.get("inertiafromgeom", "auto")
+        weights = self._children(element, here, body, inherited, suffix)
+        if inertial is not None and use != "true":
+            weights = [given_inertial(inertial.attrib, self.frames, here, name)]
+        if weights:
+            body.weights.append(self._bounded(together(weights)))
 
-    def _defaults(self, tag: str, name: str) -> dict[str, str]:
-        if name not in self.classes:
-            raise FormatError(f"no default class is called {name!r}")
-        return self.classes[name].get(tag, {})
+    def _bounded(self, weight: Weight) -> Weight:
+        """With the least mass and inertia, and the balance, that the compiler sets."""
+        least_mass = values(self.compiler.get("boundmass", "0"), 1, "boundmass")[0]
+        least = values(self.compiler.get("boundinertia", "0"), 1, "boundinertia")[0]
+        inertia = weight.inertia
+        moments, axes = np.linalg.eigh(inertia)
+        if 2 * moments.max() > moments.sum() and self.compiler.get("balanceinertia") == "true":
+            inertia = moments.mean() * np.eye(3)
+        elif moments.min() < least:
+            inertia = axes @ np.diag(np.maximum(moments, least)) @ axes.T
+        return Weight(max(weight.mass, least_mass), weight.center, inertia)
+
+    def _geom_of(
+        self, element: ET.Element, pose: Pose, body: Rigid | None, inherited: str, suffix: str
+    ) -> list[Weight]:
+        own = element.get("name")
+        name = own + suffix if own else self._number(f"geom of {body.name}" if body else "geom")
+        if body is not None:
+            return self._geom(element, pose, body, inherited, name)
+        alone = Rigid(name, fixed=True)
+        try:
+            self._geom(element, pose, alone, inherited, name)
+            if alone.pieces:
+                alone.finish(self.collected)
+        except (FormatError, MeshError) as error:
+            self.collected.lack(f"geom {alone.name}", str(error))
+        return []
+
+    def _geom(
+        self, element: ET.Element, pose: Pose, body: Rigid, inherited: str, name: str
+    ) -> list[Weight]:
+        """Add what collides of a geom; what it weighs."""
+        geom = self.defaults.of(element, inherited)
+        kind = geom.get("type", "mesh" if "mesh" in geom and "type" not in geom else "sphere")
+        collides = geom.get("contype") != "0" or geom.get("conaffinity") != "0"
+        if kind == "plane" and body.fixed:
+            friction = self._friction(geom, name)
+            self.collected.add_plane(name, pose.then(self.frames.pose(geom)), friction)
+            return []
+        if not collides and (body.fixed or geom.get("mass") == "0"):
+            self.collected.leave_out(f"{kind} {name}", "it collides with nothing")
+            return []
+        here, piece, weight = self._shape(kind, geom, name, pose)
+        if not collides:
+            self.collected.leave_out(f"{kind} {name}", "it collides with nothing, but weighs")
+        elif piece is None:
+            self.collected.leave_out(f"{kind} {name}", ONLY)
+        else:
+            body.pieces.append(here.apply(piece))
+            body.frictions.append(self._friction(geom, name))
+        return [uniform(weight, geom, name).placed(here)]
+
+    def _friction(self, geom: dict[str, str], name: str) -> float:
+        if not geom.get("friction"):
+            return 1.0
+        return values(geom["friction"], None, f"{name}: friction")[0]
+
+    def _shape(
+        self, kind: str, geom: dict[str, str], name: str, pose: Pose
+    ) -> tuple[Pose, np.ndarray | None, Weight]:
+        """Where a geom is, its corners if it can be taken, and its weight at 1 kg/m^3."""
+        here = pose.then(self.frames.pose(geom))
+        if kind == "mesh":
+            mesh = self.meshes.shape(geom.get("mesh"), name)
+            return here, mesh.hull, mesh.weight
+        if "mesh" in geom:
+            raise FormatError(f"{name}: a {kind} fitted to a mesh: take the mesh itself")
+        size = values(geom.get("size", ""), None, f"{name}: size")
+        if "fromto" in geom:
+            along, half = between(geom, name)
+            here = pose.then(along)
+            size = [*size[:1], half] if kind in ("cylinder", "capsule") else [*size[:1] * 2, half]
+        needed = {"sphere": 1, "cylinder": 2, "capsule": 2, "box": 3, "ellipsoid": 3}.get(kind)
+        if needed is None:
+            return here, None, Weight(0.0, np.zeros(3), np.zeros((3, 3)))
+        size = size[:needed]
+        if len(size) < needed:
+            raise FormatError(f"{name}: size needs {needed} numbers, not {geom.get('size')!r}")
+        if min(size) <= 0:
+            raise FormatError(f"{name}: size must be positive, not {geom.get('size')!r}")
+        if kind == "box":
+            piece = box_corners(size)
+            return here, piece, of_pieces([piece])
+        return here, None, _ROUND[kind](size)
 
     def _number(self, kind: str) -> str:
         self.unnamed[kind] += 1
         return f"{kind} {self.unnamed[kind]}"
 
 
+MOST_COPIES = 10_000
+"""Of one <replicate>."""
+
+_ROUND: dict[str, Callable[[list[float]], Weight]] = {
+    "sphere": lambda size: of_ellipsoid(size * 3),
+    "ellipsoid": of_ellipsoid,
+    "cylinder": lambda size: of_cylinder(*size),
+    "capsule": lambda size: of_capsule(*size),
+}
+
+
+def _kind(joint: ET.Element) -> str:
+    return "free" if joint.tag == "freejoint" else joint.get("type", "hinge")
+
+
 def _joined(root: ET.Element, tag: str) -> dict[str, str]:
     """The attributes of all sections of one kind."""
     return {key: value for section in root.findall(tag) for key, value in section.attrib.items()}
-
-
-def _mass(geom: dict[str, str], name: str, volume: float) -> float:
-    if "mass" in geom:
-        mass = values(geom["mass"], 1, f"{name}: mass")[0]
-    else:
-        mass = volume * values(geom.get("density", "1000"), 1, f"{name}: density")[0]
-    if mass <= 0:
-        raise FormatError(f"{name}: its mass must be positive, not {mass:g}")
-    return mass
-
-
-def _from_axes(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-    x = x / np.linalg.norm(x)
-    y = y - (y @ x) * x
-    y = y / np.linalg.norm(y)
-    rotation = np.stack([x, y, np.cross(x, y)], axis=1)
-    if not np.isfinite(rotation).all():
-        raise ValueError("its axes are parallel or zero")
-    return rotation
-
-
-def _shortest_turn(z: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The smallest rotation that takes the z axis there."""
-    if not z.any():
-        raise ValueError("its axis is zero")
-    direction = z / np.linalg.norm(z)
-    axis = np.cross([0.0, 0.0, 1.0], direction)
-    angle = math.atan2(float(np.linalg.norm(axis)), float(direction[2]))
-    return from_axis_angle(axis.tolist() if axis.any() else [1.0, 0.0, 0.0], angle)

@@ -101,6 +101,7 @@ def read_parts(
     path: str | PathLike[str],
     *,
     split: str | None = None,
+    hull: bool = False,
     max_pieces: int = MOST_PIECES,
     simplify: float | None = None,
     tolerance: float | None = None,
@@ -111,7 +112,12 @@ def read_parts(
     """
     try:
         found = read_split(path, split)
-        options = {"max_pieces": max_pieces, "simplify": simplify, "tolerance": tolerance}
+        options = {
+            "hull": hull,
+            "max_pieces": max_pieces,
+            "simplify": simplify,
+            "tolerance": tolerance,
+        }
         return [_named(read, found, options) for read in found.parts], found
     except MeshError as error:
         raise MeshError(f"{fspath(path)}: {error}") from None

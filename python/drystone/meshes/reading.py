@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drystone.meshes.errors import MeshError
+from drystone.meshes.msh import read_msh
 from drystone.meshes.obj import Obj, Section, read_obj
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-ENDINGS = (".obj", ".stl", ".ply", ".off", ".gltf", ".glb")
+ENDINGS = (".obj", ".stl", ".ply", ".off", ".gltf", ".glb", ".msh")
 """Mesh files that are read."""
 
-REPEATING = (".stl", ".glb", ".gltf")
+REPEATING = (".stl", ".glb", ".gltf", ".msh")
 """Formats that repeat a vertex for each face or normal: merging them is no repair."""
 
 NO_FACES = "it holds no faces: export it as a closed surface of triangles"
@@ -74,6 +75,8 @@ def of_sections(name: str, obj: Obj, sections: list[Section]) -> Triangles:
 
 def load(path: Path, whole: bool = True) -> Any:
     """What trimesh reads: one mesh, or unless it is to be `whole`, perhaps a scene."""
+    if path.suffix.lower() == ".msh":
+        return read_msh(path)
     import trimesh
 
     reader = trimesh.load_mesh if whole else trimesh.load
