@@ -180,6 +180,7 @@ class Contact:
     a: str
     b: str
     feature: str
+    at_borders: bool
     point: tuple[float, ...]
     normal: tuple[float, ...]
     gap: float
@@ -192,6 +193,7 @@ class ContactForce:
     a: str
     b: str
     feature: str
+    at_borders: bool
     point: tuple[float, ...]
     normal: tuple[float, ...]
     normal_force: float

@@ -121,6 +121,9 @@ class Contact:
     """Metres between the bodies here; negative where they overlap within tolerance."""
     friction: float
     """Coefficient of friction of this pair."""
+    at_borders: bool = False
+    """Whether only borders meet here: a corner a corner, in space also a corner an edge or an edge
+    an edge along it. `normal` is then that of slightly rounded ones."""
 
 
 def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:

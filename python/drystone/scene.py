@@ -379,10 +379,11 @@ class Scene:
         """Every contact point: both ends of a shared face, the corner of a corner on a face.
 
         In space every corner of the polygon that two faces share, both ends of an edge on a face,
-        and where an edge crosses an edge.
+        and where an edge crosses an edge. Where only borders meet, such as a corner on a corner,
+        there is a contact too unless another body parts the two there; see `Contact.at_borders`.
         """
         return [
-            Contact(c.a, c.b, c.feature, c.point, c.normal, c.gap, c.friction)
+            Contact(c.a, c.b, c.feature, c.point, c.normal, c.gap, c.friction, c.at_borders)
             for c in self._core.contacts()
         ]
 

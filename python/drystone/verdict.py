@@ -34,6 +34,8 @@ class ContactForce:
     the normal."""
     force: tuple[float, ...]
     """(x, y) in N; in space (x, y, z)."""
+    at_borders: bool = False
+    """Whether only borders meet here, such as a corner on a corner; see `Contact.at_borders`."""
 
     @classmethod
     def _of(cls, core: _core.ContactForce) -> ContactForce:
@@ -46,6 +48,7 @@ class ContactForce:
             core.normal_force,
             core.tangential_force,
             core.force,
+            core.at_borders,
         )
 
 
@@ -113,6 +116,13 @@ class Verdict:
             raise _core.SceneError(f"{name!r} is not a movable body of this check") from None
         return row
 
+    @property
+    def borders(self) -> tuple[ContactForce, ...]:
+        """The forces that need the normal of slightly rounded borders: those that bear where a
+        corner meets a corner, or in space an edge an edge along it or a corner an edge. Sharp
+        bodies could slip there, however small the push."""
+        return tuple(f for f in self.forces if f.at_borders and f.normal_force > 0.0)
+
     def __str__(self) -> str:
         work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
         if self.status != "solved":
@@ -121,6 +131,8 @@ class Verdict:
             work += "; undecided between inscribed and circumscribed friction cones"
         if self.stable:
             points = counted(len(self.forces), "contact point")
+            if self.borders:
+                points += f" ({len(self.borders)} bearing where only corners or edges meet)"
             return f"Stands: {counted(len(self.names), 'block')}, {points}; {work}."
         blocks = f"{len(self.falling)} of {counted(len(self.names), 'block')}"
         return f"Falls: {blocks} ({shorten(self.falling)}); {work}."
@@ -145,6 +157,7 @@ class Verdict:
                     "normal_force": f.normal_force,
                     "tangential_force": f.tangential_force,
                     "force": list(f.force),
+                    "at_borders": f.at_borders,
                 }
                 for f in self.forces
             ],

@@ -89,6 +89,8 @@ fn swapped(feature: Feature) -> Feature {
         Feature::CornerOfA { a, b } => Feature::CornerOfB { a: b, b: a },
         Feature::CornerOfB { a, b } => Feature::CornerOfA { a: b, b: a },
         Feature::Solids { a, b } => Feature::Solids { a: b, b: a },
+        Feature::Corners { a, b } => Feature::Corners { a: b, b: a },
+        Feature::Borders { a, b } => Feature::Borders { a: b, b: a },
     }
 }
 
@@ -126,17 +128,63 @@ fn in_space(v: Vector) -> [f64; 3] {
     [v.x, v.y, 0.0]
 }
 
+/// The contacts of blocks listed the other way round.
+fn assert_order_does_not_matter(outlines: &[Outline], set: &ContactSet) -> Result<(), TestCaseError> {
+    let backwards = contacts(&scene_of(outlines.iter().rev())).unwrap();
+    let expected: Vec<Contact> = set.contacts.iter().map(|c| reversed(c, outlines.len())).collect();
+    assert_same(&backwards, &expected)?;
+    prop_assert_eq!(backwards.corner_touches.len(), set.corner_touches.len());
+    Ok(())
+}
+
+/// The contacts of blocks `scale` times as large, then moved.
+fn assert_moved_along(outlines: &[Outline], set: &ContactSet, scale: f64, motion: &Pose) -> Result<(), TestCaseError> {
+    let moved: Vec<Outline> =
+        outlines.iter().map(|o| o.iter().map(|v| motion.transform(scale * *v)).collect()).collect();
+    let after = contacts(&scene_of(moved.iter())).unwrap();
+    let along = |contact: &Contact| Contact {
+        point: in_space(motion.transform(scale * in_plane(contact.point))),
+        normal: in_space(motion.rotate(in_plane(contact.normal))),
+        gap: scale * contact.gap,
+        ..contact.clone()
+    };
+    let expected: Vec<Contact> = set.contacts.iter().map(along).collect();
+    assert_same(&after, &expected)?;
+    prop_assert_eq!(&after.corner_touches, &set.corner_touches);
+    Ok(())
+}
+
+/// Moves `outline` so that its corner `k` meets the corner `j` of `other` and a line parts them: straight against one another
+/// where `lean` is 0, as far from that as a line allows where it is 1.
+fn cornered(outline: &Outline, k: usize, other: &Outline, j: usize, lean: f64) -> Outline {
+    let inwards = |outline: &Outline, k: usize| {
+        let n = outline.len();
+        let sides = [k + n - 1, k + 1].map(|at| (outline[at % n] - outline[k % n]).normalize());
+        (sides[0] + sides[1], sides[0].dot(sides[1]).clamp(-1.0, 1.0).acos())
+    };
+    let (j, k) = (j % other.len(), k % outline.len());
+    let ((own, own_angle), (into, angle)) = (inwards(outline, k), inwards(other, j));
+    let most = 0.5 * (TAU - own_angle - angle);
+    placed(outline, outline[k], own.angle_to(-into) + lean * most, other[j])
+}
+
+prop_compose! {
+    /// A block, and another one whose corner meets a corner of it.
+    fn at_a_corner()(
+        base in outline(), other in outline(), corner in 0..8_usize, own in 0..8_usize, lean in -0.9..0.9_f64,
+    ) -> Vec<Outline> {
+        let second = cornered(&other, own, &base, corner, lean);
+        vec![base, second]
+    }
+}
+
 proptest! {
     #[test]
     fn the_order_of_the_blocks_does_not_matter(outlines in group()) {
         let Some(set) = contacts(&scene_of(outlines.iter())) else { return Err(TestCaseError::reject("overlap")) };
         // Two ends of the shared face and one corner; the second and third block may touch as well.
         prop_assert!(set.contacts.len() >= 3, "{:?}", set);
-        let backwards = contacts(&scene_of(outlines.iter().rev())).unwrap();
-        let expected: Vec<Contact> = set.contacts.iter().map(|c| reversed(c, 3)).collect();
-        assert_same(&backwards, &expected)?;
-        let touches = set.corner_touches.len();
-        prop_assert_eq!(backwards.corner_touches.len(), touches);
+        assert_order_does_not_matter(&outlines, &set)?;
     }
 
     #[test]
@@ -144,17 +192,24 @@ proptest! {
         outlines in group(), x in -100.0..100.0_f64, y in -100.0..100.0_f64, angle in -TAU..TAU,
     ) {
         let Some(set) = contacts(&scene_of(outlines.iter())) else { return Err(TestCaseError::reject("overlap")) };
-        let motion = Pose { position: [x, y], angle };
-        let moved: Vec<Outline> =
-            outlines.iter().map(|o| o.iter().map(|v| motion.transform(*v)).collect()).collect();
-        let after = contacts(&scene_of(moved.iter())).unwrap();
-        let along = |contact: &Contact| Contact {
-            point: in_space(motion.transform(in_plane(contact.point))),
-            normal: in_space(motion.rotate(in_plane(contact.normal))),
-            ..contact.clone()
+        assert_moved_along(&outlines, &set, 1.0, &Pose { position: [x, y], angle })?;
+    }
+
+    #[test]
+    fn a_corner_on_a_corner_has_one_normal(
+        outlines in at_a_corner(), x in -10.0..10.0_f64, y in -10.0..10.0_f64, angle in -TAU..TAU, scale in 0.1..10.0_f64,
+    ) {
+        let set = contacts(&scene_of(outlines.iter())).unwrap();
+        prop_assert_eq!(set.contacts.len(), 1);
+        let contact = &set.contacts[0];
+        prop_assert!(contact.id.feature.at_borders(), "{}", contact.id);
+        // The line square to it parts the two.
+        let side = |outline: &Outline, sign: f64| {
+            let over = |v: &Vector| sign * in_plane(contact.normal).dot(*v - in_plane(contact.point));
+            outline.iter().map(over).fold(f64::INFINITY, f64::min)
         };
-        let expected: Vec<Contact> = set.contacts.iter().map(along).collect();
-        assert_same(&after, &expected)?;
-        prop_assert_eq!(after.corner_touches, set.corner_touches);
+        prop_assert!(side(&outlines[0], -1.0) > -1e-9 && side(&outlines[1], 1.0) > -1e-9, "{:?}", contact);
+        assert_order_does_not_matter(&outlines, &set)?;
+        assert_moved_along(&outlines, &set, scale, &Pose { position: [x, y], angle })?;
     }
 }

@@ -109,7 +109,7 @@ fn a_face_on_a_corner_touches_once_with_the_faces_normal() {
 }
 
 #[test]
-fn meeting_at_a_corner_of_each_is_recorded_and_bears_nothing() {
+fn a_corner_on_a_corner_touches_once_with_the_normal_of_rounded_ones() {
     let mut scene = empty();
     square(&mut scene, 0.0, 0.0);
     square(&mut scene, 1.0, 1.0);
@@ -119,10 +119,62 @@ fn meeting_at_a_corner_of_each_is_recorded_and_bears_nothing() {
     // Its left corner meets the right corner of another one.
     scene.add_polygon(&diamond.map(|[x, y]| [x - 1.0, y]), movable()).unwrap();
     let set = find_contacts(&scene).unwrap();
-    assert_eq!(set.corner_touches, [[0, 1], [2, 3]]);
-    assert_eq!(set.contacts.len(), 1);
-    assert_eq!(set.contacts[0].bodies, [0, 2]);
-    assert_near(set.contacts[0].normal, [-1.0, 0.0, 0.0]);
+    assert!(set.corner_touches.is_empty());
+    let [squares, side, diamonds] = &set.contacts[..] else { panic!("{set:?}") };
+    assert_eq!((squares.bodies, side.bodies, diamonds.bodies), ([0, 1], [0, 2], [2, 3]));
+    assert!(squares.id.feature.at_borders() && diamonds.id.feature.at_borders() && !side.id.feature.at_borders());
+    assert_eq!(squares.id.feature, Feature::Corners { a: 2, b: 0 });
+    assert_near(squares.normal, [0.5_f64.sqrt(), 0.5_f64.sqrt(), 0.0]);
+    assert_near(squares.point, [0.5, 0.5, 0.0]);
+    assert_near(side.normal, [-1.0, 0.0, 0.0]);
+    assert_near(diamonds.normal, [-1.0, 0.0, 0.0]);
+    assert_near(diamonds.point, [-1.5, 0.0, 0.0]);
+}
+
+/// Unit normals of corners of 90 degrees have cores that end in (1, 1); those of `q` in the page on touches at borders.
+#[test]
+fn the_normal_follows_both_corners() {
+    // A square's corner at the origin, looking up and right, and a tip above it that looks down and to the left.
+    let normal_of = |tip: &[[f64; 2]]| {
+        let mut scene = empty();
+        square(&mut scene, -0.5, -0.5);
+        scene.add_polygon(tip, movable()).unwrap();
+        let set = find_contacts(&scene).unwrap();
+        assert_eq!(set.contacts.len(), 1, "{set:?}");
+        assert!(set.contacts[0].id.feature.at_borders());
+        set.contacts[0].normal
+    };
+    // Faces of the tip look to (-1, 0) and to (1, -1) / sqrt(2): -m = (1, 1 + sqrt(2)), q = (2, 2 + sqrt(2)).
+    let q = [2.0, 2.0 + 2.0_f64.sqrt()];
+    let length = q[0].hypot(q[1]);
+    assert_near(normal_of(&[[0.0, 0.0], [1.0, 1.0], [0.0, 2.0]]), [q[0] / length, q[1] / length, 0.0]);
+    // A needle from the upper left ends far from its core, so that q looks to the upper left too. No plane square to it parts the
+    // two; of those that do the square's top is the nearest.
+    let at = |degrees: f64| [degrees.to_radians().cos(), degrees.to_radians().sin()];
+    assert_near(normal_of(&[[0.0, 0.0], at(115.0), at(125.0)]), [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn what_another_body_parts_bears_nothing_at_a_corner() {
+    // Four squares in a point, all movable: the two pairs across it bear nothing.
+    let mut scene = empty();
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        square(&mut scene, x, y);
+    }
+    let set = find_contacts(&scene).unwrap();
+    assert_eq!(set.corner_touches, [[0, 3], [1, 2]]);
+    assert!(set.contacts.iter().all(|c| !c.id.feature.at_borders()));
+    assert_eq!(set.contacts.len(), 8);
+    // A block at the seam of two level slabs, and one on the second of two with a gap, at the first's corner.
+    for second in [0.0, 0.25] {
+        let mut scene = empty();
+        scene.add_box([-1.0, -0.5], [2.0, 1.0], 0.0, fixed()).unwrap();
+        scene.add_box([second + 1.0, -0.5], [2.0, 1.0], 0.0, fixed()).unwrap();
+        square(&mut scene, 0.5, 0.5);
+        let set = find_contacts(&scene).unwrap();
+        assert_eq!(set.corner_touches, [[0, 2]], "{second}");
+        assert!(set.contacts.iter().all(|c| c.bodies == [1, 2]) && set.contacts.len() == 2, "{set:?}");
+    }
 }
 
 #[test]

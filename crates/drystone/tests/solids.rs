@@ -97,7 +97,7 @@ fn a_face_on_a_face_shares_the_whole_polygon() {
 #[test]
 fn corners_edges_and_crossing_edges_touch() {
     let down = 0.5 * 2.0_f64.sqrt();
-    // On an edge: two points; on an edge across an edge: one; edge beside edge: none.
+    // On an edge: two points; on an edge across an edge: one; an edge along an edge: two.
     let on_edge = turned([0.0, 1.0, 0.0], std::f64::consts::FRAC_PI_4);
     let mut scene = scene(0.5);
     scene.add_cuboid(at([0.0, 0.0, -0.5]), [4.0, 4.0, 1.0], fixed("ground")).unwrap();
@@ -117,7 +117,31 @@ fn corners_edges_and_crossing_edges_touch() {
     beside.add_cuboid(at([0.0; 3]), [1.0; 3], fixed("one")).unwrap();
     beside.add_cuboid(at([1.0, 0.0, 1.0]), [1.0; 3], BodyOptions::default()).unwrap();
     let set = find_solid_contacts(&beside).unwrap();
-    assert_eq!((set.contacts.len(), set.corner_touches.len()), (0, 1));
+    assert_eq!((set.contacts.len(), set.corner_touches.len()), (2, 0));
+    for (contact, y) in set.contacts.iter().zip([-0.5, 0.5]) {
+        assert!(contact.id.feature.at_borders(), "{}", contact.id);
+        assert_eq!(contact.point, [0.5, y, 0.5]);
+        let half = 0.5_f64.sqrt();
+        assert!((0..3).all(|k| (contact.normal[k] - [half, 0.0, half][k]).abs() < 1e-14), "{:?}", contact.normal);
+    }
+}
+
+/// A tip on the seam of two pieces: they share a face there, so it meets a flat face, from whichever piece it is seen.
+#[test]
+fn a_seam_of_two_pieces_is_no_edge() {
+    let half = |x: f64| -> Vec<[f64; 3]> {
+        Polyhedron::cuboid([1.0; 3]).vertices().iter().map(|v| [v.x + x, v.y, v.z - 0.5]).collect()
+    };
+    let mut scene = scene(0.5);
+    let table = BodyOptions { fixed: true, ..BodyOptions::default() };
+    scene.add_solid(&[half(-0.5), half(0.5)], PoseInSpace::WORLD, table).unwrap();
+    // Its centroid is above the tip.
+    let tip = vec![[0.0; 3], [0.2, 0.0, 0.5], [-0.1, 0.1, 0.5], [-0.1, -0.1, 0.5]];
+    scene.add_solid(&[tip], PoseInSpace::WORLD, BodyOptions::default()).unwrap();
+    let set = find_solid_contacts(&scene).unwrap();
+    let [contact] = &set.contacts[..] else { panic!("{set:?}") };
+    assert!((contact.normal[2] - 1.0).abs() < 1e-12, "{contact:?}");
+    assert!(check(&scene, None).unwrap().stable);
 }
 
 /// A block on a slope holds up to tan(angle) = mu: arctan 0.84 is 40.03 degrees. Whichever way the slope looks, the first

@@ -47,6 +47,28 @@ pub enum Feature {
         /// Of b.
         b: SolidFeature,
     },
+    /// A corner of a on a corner of b; the normal is that of slightly rounded ones.
+    Corners {
+        /// Corner of a.
+        a: usize,
+        /// Corner of b.
+        b: usize,
+    },
+    /// Borders that meet in space, corners or edges: an end of what they share. The normal is that of slightly rounded ones.
+    Borders {
+        /// Of a.
+        a: SolidFeature,
+        /// Of b.
+        b: SolidFeature,
+    },
+}
+
+impl Feature {
+    /// Whether only borders meet here (a corner a corner, in space also a corner an edge or an edge an edge along it), so that the
+    /// normal is that of slightly rounded ones.
+    pub fn at_borders(&self) -> bool {
+        matches!(self, Self::Corners { .. } | Self::Borders { .. })
+    }
 }
 
 /// A corner, an edge or a face of one convex piece of a solid.
@@ -87,6 +109,8 @@ impl fmt::Display for Feature {
             Self::CornerOfA { a, b } => write!(f, "a:corner {a} / b:face {b}"),
             Self::CornerOfB { a, b } => write!(f, "a:face {a} / b:corner {b}"),
             Self::Solids { a, b } => write!(f, "a:{a} / b:{b}"),
+            Self::Corners { a, b } => write!(f, "a:corner {a} / b:corner {b}"),
+            Self::Borders { a, b } => write!(f, "a:{a} / b:{b} / borders"),
         }
     }
 }

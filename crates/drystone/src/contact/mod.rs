@@ -13,9 +13,12 @@
 pub mod approach;
 mod approach_in_plane;
 mod approach_in_space;
+mod borders;
 mod broad_phase;
+mod covered;
 mod id;
 mod narrow_phase;
+mod rounding;
 mod separation;
 mod shared_face;
 mod solids;
@@ -56,10 +59,11 @@ pub struct Contact {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactSet {
     /// Contact points. A face on a face has two, the ends of the shared segment; a corner on a
-    /// face has one.
+    /// face has one. Borders that meet, where no other body covers them, have one or two
+    /// ([`Feature::at_borders`]).
     pub contacts: Vec<Contact>,
-    /// Pairs that meet at a corner of each and nowhere else. Such a touch has no normal of its
-    /// own; it bears nothing, so that a structure is never said to stand because of it.
+    /// Pairs that meet at borders and nowhere else, of which another body already parts the two along a plane
+    /// (docs/theory/touching-at-borders.md). They bear nothing.
     pub corner_touches: Vec<[usize; 2]>,
     /// Pairs that the broad phase handed to the narrow phase: a measure of the work done.
     pub candidate_pairs: usize,

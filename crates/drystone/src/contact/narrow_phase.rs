@@ -12,9 +12,15 @@
 //!               low        ...  high            ends of the shared span
 //! ```
 
-use super::{id::Feature, touch::Touch};
-use crate::geometry::Vector;
-use crate::scene::Body;
+use super::{
+    id::Feature,
+    rounding::{Local, Parting},
+    touch::{Border, Touch},
+};
+use crate::{
+    geometry::{Vector, Vector3},
+    scene::Body,
+};
 
 /// A contact point relative to the first polygon's centroid.
 pub(super) struct TouchPoint {
@@ -45,6 +51,17 @@ impl Outline {
     pub fn next(&self, k: usize) -> usize {
         (k + 1) % self.vertices.len()
     }
+
+    /// What the polygon is at a corner.
+    fn local(&self, corner: usize) -> Local {
+        let [before, after] = [(corner + self.vertices.len() - 1) % self.vertices.len(), self.next(corner)];
+        let to = |other: usize| (self.vertices[other] - self.vertices[corner]).normalize_or_zero();
+        let flat = |v: Vector| Vector3::new(v.x, v.y, 0.0);
+        Local {
+            faces: [before, corner].map(|face| flat(self.normals[face])).to_vec(),
+            into: [before, after].map(|other| flat(to(other))).to_vec(),
+        }
+    }
 }
 
 /// How `a` and `b` touch, where `b`'s centroid is `offset` from `a`'s.
@@ -58,13 +75,36 @@ pub(super) fn touch(a: &Outline, b: &Outline, offset: Vector, tolerance: f64) ->
     if separation < -tolerance {
         return Touch::Overlap { depth: -separation };
     }
-    if separation_a >= separation_b {
-        let span = Span::clip(a, face_a, b, offset);
-        span.touch(Role::ReferenceIsA, tolerance, Vector::ZERO)
+    let (role, span, origin) = if separation_a >= separation_b {
+        (Role::ReferenceIsA, Span::clip(a, face_a, b, offset), Vector::ZERO)
     } else {
-        let span = Span::clip(b, face_b, a, -offset);
-        span.touch(Role::ReferenceIsB, tolerance, offset)
+        (Role::ReferenceIsB, Span::clip(b, face_b, a, -offset), offset)
+    };
+    let points = span.points(role, tolerance, origin);
+    match role {
+        _ if !points.is_empty() => Touch::At(points),
+        // Each of the two distances along and across the face may use the whole tolerance.
+        _ if span.corner_distance > 2.0 * tolerance => Touch::Apart,
+        Role::ReferenceIsA => Touch::AtBorders(at_corners([a, b], span.corners, offset).into_iter().collect()),
+        Role::ReferenceIsB => {
+            let [of_b, of_a] = span.corners;
+            Touch::AtBorders(at_corners([a, b], [of_a, of_b], offset).into_iter().collect())
+        }
     }
+}
+
+/// Where two corners meet.
+pub(super) fn at_corners(
+    [a, b]: [&Outline; 2],
+    [of_a, of_b]: [usize; 2],
+    offset: Vector,
+) -> Option<Border<TouchPoint>> {
+    let parting = Parting::of(&a.local(of_a), &b.local(of_b))?;
+    let (on_a, on_b) = (a.vertices[of_a], b.vertices[of_b] + offset);
+    let normal = Vector::new(parting.normal.x, parting.normal.y);
+    let feature = Feature::Corners { a: of_a, b: of_b };
+    let point = TouchPoint { feature, point: on_a.midpoint(on_b), normal, gap: normal.dot(on_b - on_a) };
+    Some(Border { points: vec![point], parting })
 }
 
 /// The face of `reference` furthest from all of `other`, and that distance (negative: overlap
@@ -110,7 +150,8 @@ struct Span {
     length: f64,
     low: End,
     high: End,
-    /// Least distance between a corner of one face and a corner of the other, metres.
+    /// The nearest corners of the two faces, first the reference's, and their distance, metres.
+    corners: [usize; 2],
     corner_distance: f64,
 }
 
@@ -136,13 +177,16 @@ impl Span {
         let own = |along, corner| End { along, gap: gap_at(along), corner, incident: None };
         let low = if s0 >= 0.0 { incident(s0, h0, i0, k0) } else { own(0.0, r0) };
         let high = if s1 <= length { incident(s1, h1, i1, k1) } else { own(length, r1) };
-        let corner_distance =
-            [r0, r1].iter().flat_map(|r| [i0.distance(*r), i1.distance(*r)]).fold(f64::INFINITY, f64::min);
-        Self { reference_face: face, incident_face, normal, length, low, high, corner_distance }
+        let own_corners = [(face, r0), (reference.next(face), r1)];
+        let pairs =
+            own_corners.into_iter().flat_map(|(r, at)| [([r, k0], i0.distance(at)), ([r, k1], i1.distance(at))]);
+        let nearest = |best: ([usize; 2], f64), next: ([usize; 2], f64)| if next.1 < best.1 { next } else { best };
+        let (corners, corner_distance) = pairs.fold(([face, k0], f64::INFINITY), nearest);
+        Self { reference_face: face, incident_face, normal, length, low, high, corners, corner_distance }
     }
 
-    /// Turns the span into contact points. `origin` is the reference polygon's centroid.
-    fn touch(&self, role: Role, tolerance: f64, origin: Vector) -> Touch<TouchPoint> {
+    /// Turns the span into contact points, if faces meet in it or a corner a face. `origin` is the reference polygon's centroid.
+    fn points(&self, role: Role, tolerance: f64, origin: Vector) -> Vec<TouchPoint> {
         let closed = |end: &End| end.gap <= tolerance;
         let shared = self.high.along - self.low.along;
         if closed(&self.low) && closed(&self.high) && shared > tolerance {
@@ -159,7 +203,7 @@ impl Span {
                 };
                 self.point(role, feature, end, origin)
             });
-            return Touch::At(points.collect());
+            return points.collect();
         }
         let lowest = if self.high.gap < self.low.gap { self.high } else { self.low };
         let inside = lowest.along > tolerance && lowest.along < self.length - tolerance;
@@ -169,11 +213,9 @@ impl Span {
                     Role::ReferenceIsA => Feature::CornerOfB { a: self.reference_face, b: corner },
                     Role::ReferenceIsB => Feature::CornerOfA { a: corner, b: self.reference_face },
                 };
-                Touch::At(vec![self.point(role, feature, lowest, origin)])
+                vec![self.point(role, feature, lowest, origin)]
             }
-            // Each of the two distances along and across the face may use the whole tolerance.
-            _ if self.corner_distance <= 2.0 * tolerance => Touch::AtBorders,
-            _ => Touch::Apart,
+            _ => Vec::new(),
         }
     }
 

@@ -2,11 +2,12 @@
 
 use super::{
     ContactSet, Feature,
+    borders::at_borders,
     broad_phase::candidate_pairs,
     id::{SolidFeature, SolidPart},
     separation::{Between, Separation, along_edges, along_faces, direction},
     shared_face::{SharedCorner, shared_corners},
-    touch::{Pressing, Touch, contacts_of},
+    touch::{Border, Pressing, Touch, contacts_of},
 };
 use crate::{
     error::SceneError,
@@ -54,8 +55,14 @@ pub fn find_solid_contacts(scene: &SceneOf<Solid>) -> Result<ContactSet, SceneEr
     contacts_of(scene, &candidate_pairs(scene), |[a, b], tolerance| {
         let origin = Vector3::from_array(bodies[a].pose.position);
         let offset = Vector3::from_array(bodies[b].pose.position) - origin;
-        touch_of_bodies(&placed[a], &placed[b], offset, tolerance).map(|p| Pressing {
-            feature: Feature::Solids { a: p.features[0], b: p.features[1] },
+        let touch = touch_of_bodies(&placed[a], &placed[b], offset, tolerance);
+        let at_borders = matches!(touch, Touch::AtBorders(_));
+        let feature = |[a, b]: [SolidFeature; 2]| match at_borders {
+            true => Feature::Borders { a, b },
+            false => Feature::Solids { a, b },
+        };
+        touch.map(|p| Pressing {
+            feature: feature(p.features),
             point: (origin + p.point).to_array(),
             normal: p.normal.to_array(),
             gap: p.gap,
@@ -80,8 +87,12 @@ fn bounds(points: impl Iterator<Item = Vector3>) -> [Vector3; 2] {
 
 /// All pieces of one body against all of another.
 fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> Touch<TouchPoint> {
+    let met = |numbers: [usize; 2]| at_borders([a, b], numbers, offset, tolerance);
     if let ([one], [other]) = (&a.pieces[..], &b.pieces[..]) {
-        return touch([one, other], [0, 0], offset, tolerance);
+        return match touch([one, other], [0, 0], offset, tolerance) {
+            Touch::AtBorders(_) => Touch::AtBorders(met([0, 0]).into_iter().collect()),
+            touch => touch,
+        };
     }
     let boxes = |placed: &Placed, by: Vector3| -> Vec<[Vector3; 2]> {
         placed.pieces.iter().map(|piece| bounds(piece.vertices().iter().map(|v| *v + by))).collect()
@@ -90,12 +101,12 @@ fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> T
     let apart = |[low, high]: [Vector3; 2], [other_low, other_high]: [Vector3; 2]| {
         (other_low - high).max(low - other_high).max_element() > tolerance
     };
-    let (mut points, mut at_borders, mut deepest) = (Vec::new(), false, 0.0_f64);
+    let (mut points, mut border_pairs, mut deepest) = (Vec::new(), Vec::new(), 0.0_f64);
     for (i, piece) in a.pieces.iter().enumerate() {
         for (j, other) in b.pieces.iter().enumerate().filter(|(j, _)| !apart(boxes_a[i], boxes_b[*j])) {
             match touch([piece, other], [i, j], offset, tolerance) {
                 Touch::Apart => {}
-                Touch::AtBorders => at_borders = true,
+                Touch::AtBorders(_) => border_pairs.push([i, j]),
                 Touch::Overlap { depth } => deepest = deepest.max(depth),
                 Touch::At(found) => points.extend(found),
             }
@@ -104,9 +115,24 @@ fn touch_of_bodies(a: &Placed, b: &Placed, offset: Vector3, tolerance: f64) -> T
     match () {
         () if deepest > 0.0 => Touch::Overlap { depth: deepest },
         () if !points.is_empty() => Touch::At(without_inner(points, tolerance)),
-        () if at_borders => Touch::AtBorders,
+        () if !border_pairs.is_empty() => {
+            Touch::AtBorders(without_doubles(border_pairs.into_iter().filter_map(met), tolerance))
+        }
         () => Touch::Apart,
     }
+}
+
+/// Leaves out borders of which every point is one of those before: where two pieces of one body meet, both do.
+fn without_doubles(met: impl Iterator<Item = Border<TouchPoint>>, tolerance: f64) -> Vec<Border<TouchPoint>> {
+    let mut kept: Vec<Border<TouchPoint>> = Vec::new();
+    for border in met {
+        let known = || kept.iter().flat_map(|known| &known.points);
+        let new = |point: &TouchPoint| known().all(|other| other.point.distance(point.point) > 2.0 * tolerance);
+        if border.points.iter().any(new) {
+            kept.push(border);
+        }
+    }
+    kept
 }
 
 /// How two convex pieces touch; the second stands at `offset` from the first.
@@ -130,7 +156,7 @@ fn touch(pieces: [&Polyhedron; 2], numbers: [usize; 2], offset: Vector3, toleran
     } else {
         at_edges(pieces, numbers, offset, greatest, tolerance).into_iter().collect()
     };
-    if points.is_empty() { Touch::AtBorders } else { Touch::At(points) }
+    if points.is_empty() { Touch::AtBorders(Vec::new()) } else { Touch::At(points) }
 }
 
 fn at_face(
