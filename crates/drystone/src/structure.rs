@@ -4,6 +4,7 @@
 mod fall;
 mod history;
 mod putting_up;
+mod state;
 
 use crate::{
     check::{self, Verdict},
@@ -39,7 +40,7 @@ pub(crate) use putting_up::put_up;
 /// assert_eq!(structure.stands(), Some(false));
 /// # Ok::<(), drystone::SceneError>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Structure {
     assembly: Assembly,
     blocks: BlockSet,

@@ -123,3 +123,49 @@ fn what_goes_on_falling_is_not_solved_again() {
     assert!(fell > 15, "{fell}");
     assert!(asked <= 4, "{asked} of {fell}");
 }
+
+/// Copies, by `clone` and through bytes, answer with the same numbers as the first, and leave it alone.
+#[test]
+fn copies_go_on_bit_for_bit_and_alone() {
+    let walk = |structure: &mut Structure, seed: u64| {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut seen = Vec::new();
+        for _ in 0..12 {
+            for _ in 0..3 {
+                let block = random.random_range(0..structure.assembly().blocks());
+                if random.random_bool(0.7) { structure.add(block) } else { structure.remove(block) }
+            }
+            seen.push((structure.stands(), structure.check(), structure.counts(), structure.entries()));
+        }
+        seen
+    };
+    for scene in scenes_that_fall() {
+        let assembly = Assembly::new(&scene).unwrap();
+        let mut first = Structure::of(assembly.clone());
+        walk(&mut first, 1);
+        first.add(0); // the solver has not been told yet
+        let written = first.to_bytes();
+        let mut clone = first.clone();
+        let mut taken_up = Structure::from_bytes(assembly.clone(), &written).unwrap();
+        assert!(taken_up.to_bytes() == written);
+        let copied = walk(&mut clone, 2);
+        assert!(first.to_bytes() == written, "the first has changed");
+        assert_eq!(walk(&mut taken_up, 2), copied);
+        assert_eq!(walk(&mut first, 2), copied);
+    }
+}
+
+#[test]
+fn bytes_of_another_scene_or_damaged_ones_are_no_structure() {
+    let [arch, other] = [0.5, 0.6].map(|mu| Assembly::new(&scenes::arch(7, 0.2, mu).unwrap()).unwrap());
+    let mut structure = Structure::of(arch.clone());
+    (0..5).for_each(|block| structure.add(block));
+    structure.stands();
+    let bytes = structure.to_bytes();
+    assert!(Structure::from_bytes(other, &bytes).is_err());
+    for place in (0..bytes.len()).step_by(7) {
+        let mut changed = bytes.clone();
+        changed[place] ^= 1 << (place % 8);
+        assert!(Structure::from_bytes(arch.clone(), &changed).is_err(), "{place}");
+    }
+}

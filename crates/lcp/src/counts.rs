@@ -1,8 +1,10 @@
 //! Work done: exact, machine independent, what the tests gate on.
 
+use serde::{Deserialize, Serialize};
+
 /// Counts of one solve, or of a [`Solver`](crate::Solver) since it was made. A block exchange of [`Block`](crate::Block) is a
 /// major cycle, and every row that it moves a pivot.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Counts {
     /// Major cycles: rows driven to feasibility. Each ends with one pivot; with none when it ends on a ray, or when its
     /// minor cycles alone made the row feasible.

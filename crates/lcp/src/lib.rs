@@ -33,6 +33,7 @@ mod problem;
 mod ratio;
 mod reuse;
 mod scaling;
+pub mod sealed;
 mod settings;
 mod solution;
 mod solver;

@@ -130,6 +130,11 @@ impl SparseColumns {
         &self.indices
     }
 
+    /// Value of every stored entry.
+    pub fn data(&self) -> &[f64] {
+        &self.data
+    }
+
     /// Whether entries are stored at the same places.
     pub(crate) fn same_pattern(&self, other: &Self) -> bool {
         self.indptr == other.indptr && self.indices == other.indices

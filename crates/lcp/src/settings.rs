@@ -1,10 +1,12 @@
 //! Every tolerance: what it bounds, in which unit, and why it has that value.
 
+use serde::{Deserialize, Serialize};
+
 /// Tolerances and limits of a solve.
 ///
 /// The problem is scaled first so that M has a unit diagonal; "own scale" below is the larger of the largest
 /// entry of the scaled `q` and the largest entry of the scaled `z`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Settings {
     /// A row is violated when `w_i` is below minus this, in the problem's own scale. Rounding in `M z + q` with
     /// a few hundred terms is near 1e-14; 1e-11 leaves room for it and stays 100 times under `residual`.

@@ -68,7 +68,7 @@ enum Role {
 /// assert!(solver.z(0) == 0.0 && (solver.z(1) - 2.0).abs() < 1e-12);
 /// # Ok::<(), drystone_lcp::LcpError>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Solver {
     problem: Problem,
     scaling: Scaling,

@@ -1,7 +1,9 @@
 //! Sub-assemblies as sets of movable blocks.
 
+use serde::{Deserialize, Serialize};
+
 /// A set of movable blocks, by their index among the movable ones.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 pub struct BlockSet {
     words: Vec<u64>,
 }
@@ -32,6 +34,11 @@ impl BlockSet {
     /// Removes a block.
     pub fn remove(&mut self, block: usize) {
         self.words[block / 64] &= !(1 << (block % 64));
+    }
+
+    /// Whether it can be a set within so many blocks.
+    pub fn fits(&self, blocks: usize) -> bool {
+        self.words.len() == blocks.div_ceil(64) && self.iter().all(|block| block < blocks)
     }
 
     /// Adds every block of another set.

@@ -1,12 +1,13 @@
 //! A world as bytes, and back: what goes on from them goes on bit for bit.
 //!
-//! The bytes are JSON: the scene in its own format, velocities, pending forces, and what the next step takes over, the numbers
-//! of the factor included. Numbers are written so that they read back to the same bits.
+//! The bytes are sealed ([`drystone_lcp::sealed`]): kind and version in front, a checksum behind, so that a changed one is
+//! noticed. Between them are the scene in its own format, velocities, pending forces, and what the next step takes over, the
+//! numbers of the factor included.
 
 use super::{
     error::SimulationError,
     formulation::Formulation,
-    moving::Moving,
+    moving::{Moving, axes},
     reuse::{Kept, Reuse},
     settled::Settled,
     sliding::Carried,
@@ -14,18 +15,28 @@ use super::{
     velocity_level::VelocityLevel,
     world::{Options, World},
 };
-use crate::{contact::approach::ApproachOf, formulate::Cones, io};
+use crate::{
+    contact::approach::{Approach, ApproachOf},
+    formulate::Cones,
+    io,
+};
+use drystone_lcp::sealed::{self, Seal, SealError};
 use serde::{Deserialize, Serialize};
 
-const FORMAT: &str = "drystone-world";
-/// 1 kept impulses along normals and tangents, and arms of contacts.
-const VERSION: u64 = 2;
+/// 1 and 2 were JSON, without a checksum.
+const VERSION: u32 = 3;
+const IN_PLANE: Seal = Seal { kind: *b"DS-WORL2", version: VERSION };
+const IN_SPACE: Seal = Seal { kind: *b"DS-WORL3", version: VERSION };
 
+fn seal<S: Moving>() -> Seal {
+    if axes::<S>() == 2 { IN_PLANE } else { IN_SPACE }
+}
+
+/// What decides how a world moves on.
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "")]
-struct Saved<S: Moving> {
-    format: String,
-    version: u64,
+struct State<S: Moving> {
+    /// As JSON: the bodies where they are, their shapes, masses and friction, gravity, the tolerance.
     scene: String,
     dt: f64,
     reuse: Reuse,
@@ -36,6 +47,13 @@ struct Saved<S: Moving> {
     forces: Vec<S::Velocity>,
     motionless: Vec<bool>,
     steps: u64,
+}
+
+/// The same, and what was computed for the step before. Without that the motion is the same but for rounding.
+#[derive(Serialize, Deserialize)]
+#[serde(bound = "")]
+struct Saved<S: Moving> {
+    state: State<S>,
     before: Option<Vec<ApproachOf<S>>>,
     stood: Option<Stood>,
     settled: Option<Settled<S>>,
@@ -45,41 +63,26 @@ struct Saved<S: Moving> {
     carried: Carried,
 }
 
-/// What there is to know before the rest can be read.
-#[derive(Deserialize)]
-struct Head {
-    format: String,
-    version: u64,
-    scene: String,
-}
-
 /// The dimension of the world that a snapshot was taken of.
 ///
 /// # Errors
-/// [`SimulationError::Snapshot`] for anything that is not one.
+/// [`SimulationError::Snapshot`] for bytes that do not begin as one.
 pub fn snapshot_dimension(bytes: &[u8]) -> Result<usize, SimulationError> {
-    Ok(io::from_json(&head(bytes)?.scene, "the snapshot's scene")?.dimension())
+    let begins = |seal: Seal| bytes.starts_with(&seal.kind);
+    match (begins(IN_PLANE), begins(IN_SPACE)) {
+        (true, _) => Ok(2),
+        (_, true) => Ok(3),
+        _ => Err(fault(SealError::OtherKind)),
+    }
 }
 
 fn fault(reason: impl ToString) -> SimulationError {
     SimulationError::Snapshot { reason: reason.to_string() }
 }
 
-fn head(bytes: &[u8]) -> Result<Head, SimulationError> {
-    let head: Head = serde_json::from_slice(bytes).map_err(fault)?;
-    let (format, version) = (&head.format, head.version);
-    if format != FORMAT || version != VERSION {
-        return Err(fault(format!("it is {format} of version {version}, not {FORMAT} of version {VERSION}")));
-    }
-    Ok(head)
-}
-
 impl<S: Moving> World<S> {
-    /// The whole state, to go on from with [`Self::restore`].
-    pub fn snapshot(&self) -> Vec<u8> {
-        let saved = Saved::<S> {
-            format: FORMAT.to_owned(),
-            version: VERSION,
+    fn state(&self) -> State<S> {
+        State {
             scene: S::to_json(&self.scene),
             dt: self.options.dt,
             reuse: self.options.reuse,
@@ -90,6 +93,20 @@ impl<S: Moving> World<S> {
             forces: self.forces.clone(),
             motionless: self.motionless.clone(),
             steps: self.steps,
+        }
+    }
+
+    /// A number for the state, the same on every machine: equal for equal bodies (shapes, masses, friction, names), places,
+    /// velocities, pending forces, gravity, options and step counts, to the bit. What was computed for the step before is not in
+    /// it: a failed step forgets that.
+    pub fn hash(&self) -> u64 {
+        sealed::digest(&seal::<S>().close(&self.state()))
+    }
+
+    /// The whole state, to go on from with [`Self::restore`].
+    pub fn snapshot(&self) -> Vec<u8> {
+        seal::<S>().close(&Saved::<S> {
+            state: self.state(),
             before: self.before.as_ref().map(|before| before.approaches().to_vec()),
             stood: self.stood.clone(),
             settled: self.settled.clone(),
@@ -97,8 +114,7 @@ impl<S: Moving> World<S> {
             impulses: self.impulses.clone(),
             kept: self.route.kept(),
             carried: self.carried.clone(),
-        };
-        serde_json::to_vec(&saved).expect("numbers and names are always written")
+        })
     }
 
     /// The world that a snapshot was taken of.
@@ -106,29 +122,23 @@ impl<S: Moving> World<S> {
     /// # Errors
     /// [`SimulationError::Snapshot`] for anything that is not one, whole and undamaged.
     pub fn restore(bytes: &[u8]) -> Result<Self, SimulationError> {
-        let scene = S::of_any(io::from_json(&head(bytes)?.scene, "the snapshot's scene")?)?;
-        let saved: Saved<S> = serde_json::from_slice(bytes).map_err(fault)?;
-        let Saved { dt, reuse, restitution, formulation, cones, .. } = saved;
-        let mut world = Self::resting(scene, Options { dt, reuse, restitution, formulation, cones })?;
-        let n = world.velocities.len();
-        let (points, finite) =
-            (saved.before.as_ref().map_or(0, Vec::len), |v: &S::Velocity| v.as_ref().iter().all(|v| v.is_finite()));
-        if [saved.velocities.len(), saved.forces.len(), saved.motionless.len()] != [n; 3]
-            || saved.sliding.len() != points
-            || saved.impulses.len() != points
-            || saved.before.iter().flatten().any(|approach| approach.id.bodies.iter().any(|&body| body >= n))
-            || !saved.velocities.iter().chain(&saved.forces).all(finite)
-        {
-            return Err(fault("its parts do not fit together"));
+        let saved: Saved<S> = seal::<S>().open(bytes).map_err(fault)?;
+        let State { scene, dt, reuse, restitution, formulation, cones, .. } = &saved.state;
+        let scene = io::from_json(scene, "its scene").and_then(S::of_any).map_err(fault)?;
+        let options =
+            Options { dt: *dt, reuse: *reuse, restitution: *restitution, formulation: *formulation, cones: *cones };
+        let mut world = Self::resting(scene, options).map_err(fault)?;
+        if !saved.fits(world.velocities.len()) {
+            return Err(fault(UNFIT));
         }
-        world.velocities = saved.velocities;
-        world.forces = saved.forces;
-        world.motionless = saved.motionless;
-        world.steps = saved.steps;
+        world.velocities = saved.state.velocities;
+        world.forces = saved.state.forces;
+        world.motionless = saved.state.motionless;
+        world.steps = saved.state.steps;
         world.before = saved.before.map(|approaches| world.problem_of(approaches));
         let rows = world.before.as_ref().map_or(0, VelocityLevel::len);
         if saved.stood.as_ref().is_some_and(|stood| stood.q.len() != rows) {
-            return Err(fault("its parts do not fit together"));
+            return Err(fault(UNFIT));
         }
         world.stood = saved.stood;
         world.settled = saved.settled;
@@ -140,5 +150,24 @@ impl<S: Moving> World<S> {
             world.route.take_up(&saved.kept, &matrix).map_err(fault)?;
         }
         Ok(world)
+    }
+}
+
+const UNFIT: &str = "its parts do not fit together";
+
+impl<S: Moving> Saved<S> {
+    /// Whether the parts have the sizes of `n` bodies and of one another.
+    fn fits(&self, n: usize) -> bool {
+        let State { velocities, forces, motionless, .. } = &self.state;
+        let points = self.before.as_ref().map_or(0, Vec::len);
+        let finite = |v: &S::Velocity| v.as_ref().iter().all(|v| v.is_finite());
+        let between = |approach: &ApproachOf<S>| {
+            let Approach { id, .. } = approach;
+            id.bodies[0] < id.bodies[1] && id.bodies[1] < n
+        };
+        [velocities.len(), forces.len(), motionless.len()] == [n; 3]
+            && [self.sliding.len(), self.impulses.len()] == [points; 2]
+            && self.before.iter().flatten().all(between)
+            && velocities.iter().chain(forces).all(finite)
     }
 }

@@ -283,20 +283,4 @@ impl<S: Moving> World<S> {
         self.stood = None;
         self.settled = None;
     }
-
-    /// A number for the state: equal for equal places, velocities, pending forces and step counts, to the bit.
-    pub fn hash(&self) -> u64 {
-        // Fowler, Noll and Vo's FNV-1a: the same on every machine, which the standard library does not promise.
-        const PRIME: u64 = 0x0100_0000_01b3;
-        let places = self.poses().flat_map(|place| numbers(&place));
-        let motions = self.velocities.iter().chain(&self.forces).flat_map(numbers);
-        let words = places.chain(motions).chain([self.steps]);
-        let bytes = words.flat_map(u64::to_le_bytes);
-        bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(PRIME))
-    }
-}
-
-/// The bits of some numbers.
-fn numbers<V: Numbers>(values: &V) -> Vec<u64> {
-    values.as_ref().iter().map(|x| x.to_bits()).collect()
 }

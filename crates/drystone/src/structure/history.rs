@@ -5,12 +5,13 @@
 
 use crate::formulate::BlockSet;
 use drystone_lcp::cone::{ConeSolver, Mark};
+use serde::{Deserialize, Serialize};
 
 /// Going back to a state whose factor has to be built again pays if at least this many pivots were made since.
 const PIVOTS_WORTH_A_FACTOR: usize = 64;
 
 /// Blocks in the order in which they came, the newest last, with the state before each.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct History {
     states: Vec<(usize, Mark)>,
 }
@@ -19,6 +20,11 @@ impl History {
     /// A block is about to come.
     pub fn push(&mut self, block: usize, solver: &mut ConeSolver) {
         self.states.push((block, solver.mark()));
+    }
+
+    /// The blocks, the newest last.
+    pub fn blocks(&self) -> impl Iterator<Item = usize> {
+        self.states.iter().map(|&(block, _)| block)
     }
 
     /// Goes back to before the newest block.

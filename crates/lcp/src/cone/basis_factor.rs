@@ -13,12 +13,13 @@ mod solving;
 mod undoing;
 
 use super::{due::Due, lists::Lists, sparse_vector::SparseVector};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 type Entries = Vec<(u32, f64)>;
 
 /// Row operation `x[target] -= sum of factor * x[row]`, and where its terms (row, factor) are.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct RowOperation {
     target: u32,
     start: u32,
@@ -32,7 +33,7 @@ impl RowOperation {
 }
 
 /// One replacement: the stage that the position had before, and whether it needed a row operation.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Undo {
     position: u32,
     stage: u32,
@@ -40,7 +41,7 @@ struct Undo {
 }
 
 /// A column of `U`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Stage {
     position: u32,
     /// Where its entries above the diagonal are, and how many. It never has more than when it was put in.
@@ -60,7 +61,7 @@ impl Stage {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct BasisFactor {
     stages: Vec<Stage>,
     /// Stage of the column in each position.

@@ -1,9 +1,10 @@
 //! Generators as sparse columns, with the columns of every row.
 
 use crate::error::LcpError;
+use serde::{Deserialize, Serialize};
 
 /// A sparse matrix G (rows x n) by columns and by rows.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Columns {
     rows: usize,
     starts: Vec<usize>,

@@ -1,10 +1,11 @@
 //! Row operations or stages still to be dealt with, in the order of their numbers.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// A set of numbers that is emptied from one end while more are added on the way; bits, because a row of a large
 /// structure is read by many operations.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Due {
     words: Vec<u64>,
     /// No bit is set outside these words.

@@ -1,8 +1,10 @@
 //! Many short lists in one piece of memory.
 
+use serde::{Deserialize, Serialize};
+
 /// Lists that grow and shrink at their ends. One that has no room left moves to the end of the memory, with twice the room;
 /// what it leaves behind is gathered up when there is more of it than of what is in use. So a list costs no allocation.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Lists<T> {
     memory: Vec<T>,
     spans: Vec<Span>,
@@ -10,7 +12,7 @@ pub(super) struct Lists<T> {
     room: usize,
 }
 
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Span {
     start: u32,
     len: u32,

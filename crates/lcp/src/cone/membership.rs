@@ -19,6 +19,7 @@ pub use marks::Mark;
 
 use super::{basis_factor::BasisFactor, columns::Columns, pricing::Pricing, sparse_vector::SparseVector};
 use crate::{counts::Counts, error::LcpError};
+use serde::{Deserialize, Serialize};
 
 /// What a solve found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -35,7 +36,7 @@ pub enum Membership {
 }
 
 /// What is basic in a position.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 enum Basic {
     /// The unit column of the position's own row: what the row lacks to balance.
     Unit,
@@ -43,14 +44,14 @@ enum Basic {
 }
 
 /// A basic value that limits the step.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Blocking {
     position: u32,
     ratio: f64,
     rate: f64,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 enum Change {
     /// A row came.
     Row(u32),
@@ -69,7 +70,7 @@ enum Change {
 }
 
 /// Decides `h in cone(G)` on growing and shrinking sets of rows. A column takes part once all its rows are present.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ConeSolver {
     g: Columns,
     h: Vec<f64>,
@@ -172,6 +173,11 @@ const PROGRESS: f64 = 1e-12;
 const STALL: usize = 200;
 
 impl ConeSolver {
+    /// Whether both have the same generators and loads.
+    pub fn same_problem(&self, other: &Self) -> bool {
+        (&self.g, &self.h, &self.row_scale) == (&other.g, &other.h, &other.row_scale)
+    }
+
     /// Takes the generators of the complete problem, `h`, and for each row the unit in which its imbalance is measured
     /// (positive); no row is present.
     ///

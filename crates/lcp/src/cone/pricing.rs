@@ -1,10 +1,11 @@
 //! Which column enters: the one that lowers the infeasibility fastest.
 
 use super::{columns::Columns, sparse_vector::SparseVector};
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
 /// Finds entering columns among those that touch a row with a multiplier.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Pricing {
     seen: Vec<bool>,
     touched: Vec<u32>,

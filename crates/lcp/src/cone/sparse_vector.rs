@@ -1,7 +1,9 @@
 //! A dense vector that knows where it is not zero.
 
+use serde::{Deserialize, Serialize};
+
 /// Values of all entries, and a list of those that may differ from zero. Clearing costs only the listed ones.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct SparseVector {
     value: Vec<f64>,
     listed: Vec<bool>,

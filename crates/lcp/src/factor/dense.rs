@@ -135,6 +135,12 @@ impl ActiveFactor for DenseFactor {
         self.d.clear();
     }
 
+    fn rows(&self) -> Vec<usize> {
+        let mut rows = self.order.clone();
+        rows.sort_unstable();
+        rows
+    }
+
     fn len(&self) -> usize {
         self.order.len()
     }
@@ -148,6 +154,10 @@ impl ActiveFactor for DenseFactor {
         let mut moved = Self { order, l: self.l.clone(), d: self.d.clone(), place: vec![OUT; n] };
         moved.find_places();
         Some(Box::new(moved))
+    }
+
+    fn boxed(&self) -> Box<dyn ActiveFactor> {
+        Box::new(self.clone())
     }
 
     fn numbers(&self) -> FactorNumbers {

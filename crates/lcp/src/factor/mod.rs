@@ -34,6 +34,9 @@ pub trait ActiveFactor: std::fmt::Debug + Send + Sync {
     /// Empties C.
     fn clear(&mut self);
 
+    /// The rows in C, ascending.
+    fn rows(&self) -> Vec<usize>;
+
     /// Number of rows in C.
     fn len(&self) -> usize;
 
@@ -49,11 +52,20 @@ pub trait ActiveFactor: std::fmt::Debug + Send + Sync {
     /// if the factor rests on an analysis of the old matrix.
     fn renumbered(&self, n: usize, place: &[Option<usize>]) -> Option<Box<dyn ActiveFactor>>;
 
+    /// The same factor once more.
+    fn boxed(&self) -> Box<dyn ActiveFactor>;
+
     /// Every number of the factor, to be kept outside of it.
     fn numbers(&self) -> FactorNumbers;
 
     /// Takes the numbers of a factor of the same kind, for the same matrix. False if they do not fit; C is empty then.
     fn take_numbers(&mut self, numbers: &FactorNumbers) -> bool;
+}
+
+impl Clone for Box<dyn ActiveFactor> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
 }
 
 /// The numbers of a factor: with the matrix they make the same factor again, bit for bit.

@@ -177,6 +177,11 @@ impl ActiveFactor for SparseFactor {
         self.rows_active = 0;
     }
 
+    fn rows(&self) -> Vec<usize> {
+        let position = self.symbolic.position.iter().enumerate();
+        position.filter(|&(_, &p)| self.active[p]).map(|(i, _)| i).collect()
+    }
+
     fn len(&self) -> usize {
         self.rows_active
     }
@@ -187,6 +192,10 @@ impl ActiveFactor for SparseFactor {
 
     fn renumbered(&self, _n: usize, _place: &[Option<usize>]) -> Option<Box<dyn ActiveFactor>> {
         None
+    }
+
+    fn boxed(&self) -> Box<dyn ActiveFactor> {
+        Box::new(self.clone())
     }
 
     fn numbers(&self) -> FactorNumbers {

@@ -4,6 +4,7 @@ mod bad_input;
 mod block;
 mod brute_force;
 mod contact;
+mod copies;
 mod cycling;
 mod follow;
 mod growing;

@@ -1,9 +1,10 @@
 //! Going back: the state at a mark, restored from what was changed since.
 
 use super::{Basic, Change, ConeSolver, keeping::BasisSet};
+use serde::{Deserialize, Serialize};
 
 /// A point to return to with [`ConeSolver::roll_back`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mark {
     changes: usize,
     factor: usize,
