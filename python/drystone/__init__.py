@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from drystone import imports, lcp, meshes, scenes, viewer
     from drystone._core import (
+        BusyError,
         DrystoneError,
         LcpError,
         SceneError,
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Blocked",
     "Body",
+    "BusyError",
     "Contact",
     "ContactForce",
     "DrystoneError",
@@ -71,6 +73,7 @@ _MODULES = ("imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
     "Blocked": "drystone.plan_answer",
     "Body": "drystone.body",
+    "BusyError": "drystone._core",
     "Contact": "drystone.body",
     "ContactForce": "drystone.verdict",
     "DrystoneError": "drystone._core",

@@ -31,6 +31,7 @@ from drystone._core import LcpError, StartError
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from scipy import sparse
+    from typing_extensions import Self
 
 __all__ = [
     "METHODS",
@@ -183,6 +184,10 @@ class Snapshot:
 
     _core: _core.LcpSnapshot
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> Snapshot:
+        """Nothing changes a state."""
+        return self
+
 
 class Solver:
     """A sequence of related problems: rows of a complete problem come and go, and q changes.
@@ -211,7 +216,12 @@ class Solver:
     >>> solver.rows, solver.solve().pivots
     (array([0, 1]), 0)
 
-    Raises LcpError for bad input, as `solve` does. One thread at a time may use a solver.
+    `copy.copy`, `copy.deepcopy` and `pickle` make solvers of their own, with the active set and the
+    factor as they are, so that they answer with the same numbers. States kept before are those of
+    the copies too, but not of what was pickled.
+
+    Raises LcpError for bad input, as `solve` does. One thread at a time may use a solver: BusyError
+    otherwise, and nothing has changed then.
     """
 
     __slots__ = ("_core", "_n")
@@ -224,7 +234,7 @@ class Solver:
     @classmethod
     def from_generators(
         cls, G: Any, W: ArrayLike, h: ArrayLike, pivot_limit: int | None = None
-    ) -> Solver:
+    ) -> Self:
         """M = G' W G and q = -G' W h, without forming anything dense.
 
         `G` (rows, n) is a NumPy array or SciPy sparse matrix of generators; for contacts, the
@@ -249,11 +259,28 @@ class Solver:
                 f"G has {columns.shape[0]} rows but W has {W.size} entries and h has {h.size}: "
                 "give one of each for every row"
             )
-        solver = cls.__new__(cls)
         arrays = columns.indptr.astype(np.int64), columns.indices.astype(np.int64), columns.data
-        solver._core = _core.LcpSolver.from_generators(*arrays, W, h, pivot_limit)
-        solver._n = columns.shape[1]
+        return cls._of(_core.LcpSolver.from_generators(*arrays, W, h, pivot_limit))
+
+    @classmethod
+    def _of(cls, core: _core.LcpSolver) -> Self:
+        solver = cls.__new__(cls)
+        solver._core, solver._n = core, len(core.q())
         return solver
+
+    @classmethod
+    def _again(cls, state: bytes) -> Self:
+        """What was pickled; LcpError for other bytes."""
+        return cls._of(_core.LcpSolver.from_bytes(state))
+
+    def __copy__(self) -> Self:
+        return self._of(self._core.copy())
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self.__copy__()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self)._again, (self._core.to_bytes(),)
 
     def __len__(self) -> int:
         """Rows of the complete problem, n."""
@@ -264,13 +291,13 @@ class Solver:
 
     @property
     def rows(self) -> NDArray[np.int64]:
-        """Rows that are present, ascending."""
-        return np.array(self._core.rows(), dtype=np.int64)
+        """Rows that are present, ascending. Read-only: see `add_rows` and `remove_rows`."""
+        return _read_only(np.array(self._core.rows(), dtype=np.int64))
 
     @property
     def q(self) -> NDArray[np.float64]:
-        """(n,), as it is now. A copy: change it with `set_q`."""
-        return np.array(self._core.q(), dtype=np.float64)
+        """(n,), as it is now. Read-only: change it with `set_q`."""
+        return _read_only(np.array(self._core.q(), dtype=np.float64))
 
     @property
     def counts(self) -> Counts:
@@ -305,6 +332,11 @@ class Solver:
         if not isinstance(snapshot, Snapshot):
             raise LcpError(f"restore takes a Snapshot of this solver, not {snapshot!r:.60}")
         self._core.restore(snapshot._core)
+
+
+def _read_only(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array
 
 
 def _solution(core: _core.LcpSolution, rows: NDArray[np.int64]) -> Solution:

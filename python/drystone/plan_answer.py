@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -126,6 +127,9 @@ class Plan:
             scene,
             cones,
         )
+
+    def __copy__(self) -> Plan:
+        return replace(self, scene=copy.copy(self.scene), whole=copy.copy(self.whole))
 
     @property
     def hold_steps(self) -> list[tuple[str, str, int]]:

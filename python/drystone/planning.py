@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Sequence
 
 from drystone import _core
@@ -89,6 +90,7 @@ def plan(
     if threads is not None and threads < 1:
         raise ValueError(f"threads is {threads}: it must be one or more")
     cones = core_cones(facets, cone)
+    scene = copy.copy(scene)  # the one planned, whatever becomes of it
     return Plan._of(
         _core.plan(
             scene._core,

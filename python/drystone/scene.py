@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from drystone import _core, weight
 from drystone.body import Contact, snapshot
 from drystone.weight import Inertia
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 Point = Sequence[float]
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
@@ -75,7 +78,7 @@ class Scene:
         self._core = _core.Scene(take(gravity, "gravity"), friction, contact_tolerance)
 
     @classmethod
-    def _of(cls, core: _core.Scene) -> Scene:
+    def _of(cls, core: _core.Scene) -> Self:
         """Wrap a scene of the compiled core."""
         scene = cls.__new__(cls)
         scene._core = core
@@ -302,7 +305,7 @@ class Scene:
         return load(assembly, **options).scene
 
     @classmethod
-    def load(cls, path: str | PathLike[str]) -> Scene:
+    def load(cls, path: str | PathLike[str]) -> Self:
         """Read a scene file (JSON, see docs/scene.schema.json).
 
         Files of other tools are for `drystone.imports.load`; the SceneError says so.
@@ -318,7 +321,7 @@ class Scene:
             raise _core.SceneError(said) from None
 
     @classmethod
-    def from_json(cls, text: str) -> Scene:
+    def from_json(cls, text: str) -> Self:
         """Read a scene from the text of a scene file."""
         return cls._of(_core.Scene.from_json(text))
 
@@ -407,8 +410,14 @@ class Scene:
 
         return pictures.svg(pictures.scene_figure(self))
 
+    def __copy__(self) -> Self:
+        return self._of(self._core.copy())
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self.__copy__()
+
     def __reduce__(self) -> tuple[Any, ...]:
-        return Scene.from_json, (self.to_json(),)
+        return type(self).from_json, (self.to_json(),)
 
 
 def _pair(value: Point, what: str) -> tuple[float, float]:

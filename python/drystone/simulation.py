@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -126,6 +127,9 @@ class Run:
             scene=scene,
             **recorded,
         )
+
+    def __copy__(self) -> Run:
+        return replace(self, scene=copy.copy(self.scene))
 
     @property
     def steps(self) -> int:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
 from drystone.verdict import Verdict
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 
 class Structure:
@@ -28,10 +32,14 @@ class Structure:
     (False, ('4',))
 
     Raises SceneError for a scene in which blocks overlap, and for a name that no movable body has.
-    One thread at a time may use a structure. `facets` and `cone` are as in `plan`.
+    `facets` and `cone` are as in `plan`.
+
+    `copy.copy`, `copy.deepcopy` and `pickle` make structures of their own, with the forces and the
+    factor as they are, so that they answer with the same numbers. One thread at a time may use a
+    structure: BusyError otherwise, and nothing has changed then.
     """
 
-    __slots__ = ("_cone", "_core", "_index", "_names", "_scene")
+    __slots__ = ("_cones", "_core", "_index", "_names", "_scene")
 
     def __init__(
         self,
@@ -42,11 +50,14 @@ class Structure:
         cone: str = CONES[0],
     ) -> None:
         self._scene = copy.copy(scene)
-        self._cone = cone
-        self._core = _core.Structure(scene._core, core_cones(facets, cone))
-        self._names = tuple(self._core.names())
-        self._index = {name: block for block, name in enumerate(self._names)}
+        self._cones = core_cones(facets, cone)
+        self._hold(_core.Structure(scene._core, self._cones))
         self.add(*blocks)
+
+    def _hold(self, core: _core.Structure) -> None:
+        self._core = core
+        self._names = tuple(core.names())
+        self._index = {name: block for block, name in enumerate(self._names)}
 
     def __repr__(self) -> str:
         return f"<Structure: {len(self.blocks)} of {len(self._names)} blocks>"
@@ -73,7 +84,7 @@ class Structure:
 
     def check(self) -> Verdict:
         """The verdict with all contact forces, or how it begins to fall; as `check` gives it."""
-        return Verdict._of(self._core.check(), self._scene, self._cone)
+        return Verdict._of(self._core.check(), copy.copy(self._scene), self._cones[1])
 
     @property
     def pivots(self) -> int:
@@ -84,6 +95,26 @@ class Structure:
     def entries(self) -> int:
         """Numbers that the factor holds now."""
         return self._core.entries()
+
+    def __copy__(self) -> Self:
+        twin = type(self).__new__(type(self))
+        twin._scene, twin._cones = copy.copy(self._scene), self._cones
+        twin._hold(self._core.copy())
+        return twin
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        return self.__copy__()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self)._again, (self._scene, self._cones, self._core.to_bytes())
+
+    @classmethod
+    def _again(cls, scene: Scene, cones: tuple[int, str], state: bytes) -> Self:
+        """What was pickled; DrystoneError if the state is not one of this scene."""
+        structure = cls.__new__(cls)
+        structure._scene, structure._cones = scene, cones
+        structure._hold(_core.Structure.from_bytes(scene._core, cones, state))
+        return structure
 
     def _indices(self, blocks: Iterable[str]) -> list[int]:
         return [self._block(name) for name in blocks]

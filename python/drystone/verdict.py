@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from os import PathLike
@@ -108,6 +109,9 @@ class Verdict:
             _certain(core, scene, cone),
         )
 
+    def __copy__(self) -> Verdict:
+        return replace(self, scene=copy.copy(self.scene))
+
     def acceleration(self, name: str) -> NDArray[np.float64]:
         """The row of `accelerations` of the body called `name`, in m/s^2 and rad/s^2."""
         try:
@@ -211,6 +215,7 @@ def check(
     if isinstance(blocks, str):
         raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
     names = None if blocks is None else list(blocks)
+    scene = copy.copy(scene)  # the one checked, whatever becomes of it
     core_cones(facets, cone, CONES)
     inner = CONES[0] if cone == "both" else cone
     verdict = Verdict._of(_core.check(scene._core, names, method, (facets, inner)), scene, inner)

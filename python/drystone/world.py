@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
@@ -16,6 +16,7 @@ from drystone.weight import Inertia
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+    from typing_extensions import Self
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -56,6 +57,9 @@ class World:
     >>> world.apply_force("3", (30, 0))
     >>> bool(world.step().motionless[3])
     False
+
+    `copy.copy`, `copy.deepcopy` and `pickle` make worlds of their own that go on bit for bit. One
+    thread at a time may use a world: BusyError otherwise, and nothing has changed then.
     """
 
     __slots__ = ("_core",)
@@ -266,22 +270,41 @@ class World:
         self._core.remove(name)
 
     def snapshot(self) -> bytes:
-        """The whole state. What goes on from it goes on bit for bit."""
+        """The whole state. What goes on from it goes on bit for bit.
+
+        The bytes end with a checksum, and are for the version of drystone that wrote them.
+        """
         return self._core.snapshot()
 
     @classmethod
-    def restore(cls, snapshot: bytes) -> World:
-        """The world that a snapshot was taken of; SimulationError for anything else."""
+    def restore(cls, snapshot: bytes) -> Self:
+        """The world that a snapshot was taken of.
+
+        Raises SimulationError for anything else: other, changed, missing or more bytes.
+        """
         world = cls.__new__(cls)
-        world._core = _core.World.restore(snapshot)
+        world._core = _core.World.restore(_bytes(snapshot))
         return world
 
     def state_hash(self) -> int:
-        """A number for the state: places, velocities, pending pushes and the count of steps.
+        """A number for all that decides how the world moves on, the same on every machine.
 
+        That is the bodies (names, shapes, masses, friction) and where they are, velocities, pending
+        pushes, gravity, the contact tolerance, the arguments of `World` and the count of steps.
         Two worlds share it when these are the same to the bit.
         """
         return self._core.state_hash()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copies and pickles are taken up from a snapshot."""
+        return type(self).restore, (self.snapshot(),)
+
     def __repr__(self) -> str:
         return f"<World: {len(self.names)} bodies after {self.steps} steps of {self.dt:.4g} s>"
+
+
+def _bytes(snapshot: bytes) -> bytes:
+    """What `snapshot` gave; SimulationError for what is not bytes at all."""
+    if isinstance(snapshot, bytes | bytearray | memoryview):
+        return bytes(snapshot)
+    raise _core.SimulationError(f"a snapshot is bytes, not {snapshot!r:.60}")

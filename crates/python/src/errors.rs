@@ -7,7 +7,7 @@ use drystone::{
 };
 use drystone_lcp::LcpError;
 use pyo3::{
-    exceptions::{PyException, PyValueError},
+    exceptions::{PyException, PyRuntimeError, PyValueError},
     prelude::*,
     sync::PyOnceLock,
     types::{IntoPyDict, PyTuple, PyType},
@@ -20,6 +20,7 @@ struct Exceptions {
     start: Py<PyType>,
     simulation: Py<PyType>,
     step: Py<PyType>,
+    busy: Py<PyType>,
 }
 
 static EXCEPTIONS: PyOnceLock<Exceptions> = PyOnceLock::new();
@@ -40,7 +41,10 @@ fn exceptions(py: Python<'_>) -> PyResult<&'static Exceptions> {
         let start = make("StartError", "A start that does not fit the problem.", &[lcp.bind(py)])?;
         let simulation = make("SimulationError", "Bad input to a simulation; says what to mend.", &both)?;
         let step = make("StepError", "A step that could not be made; the world is as before.", &[base.bind(py)])?;
-        Ok(Exceptions { base, scene, lcp, start, simulation, step })
+        let busy_bases = [base.bind(py), &py.get_type::<PyRuntimeError>()];
+        let busy =
+            make("BusyError", "Another call, of another thread or around this one, has the object.", &busy_bases)?;
+        Ok(Exceptions { base, scene, lcp, start, simulation, step, busy })
     })
 }
 
@@ -52,7 +56,8 @@ pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LcpError", known.lcp.bind(py))?;
     module.add("StartError", known.start.bind(py))?;
     module.add("SimulationError", known.simulation.bind(py))?;
-    module.add("StepError", known.step.bind(py))
+    module.add("StepError", known.step.bind(py))?;
+    module.add("BusyError", known.busy.bind(py))
 }
 
 fn raise(pick: impl Fn(&Exceptions) -> &Py<PyType>, message: String) -> PyErr {
@@ -71,6 +76,24 @@ pub fn lcp_error(error: &LcpError) -> PyErr {
         LcpError::Start(start) => raise(|known| &known.start, start.to_string()),
         other => raise(|known| &known.lcp, other.to_string()),
     }
+}
+
+/// Another call has the object.
+pub fn busy(what: &str) -> PyErr {
+    let message = format!(
+        "this {what} is in use by another call: let one thread at a time have it, or give each a copy (copy.copy)"
+    );
+    raise(|known| &known.busy, message)
+}
+
+/// A call that changed the object broke off in the middle.
+pub fn broken(what: &str) -> PyErr {
+    raise(|known| &known.base, format!("this {what} was left unfinished by an internal error: make another one"))
+}
+
+/// Bytes that are no structure.
+pub fn no_structure(reason: impl std::fmt::Display) -> PyErr {
+    raise(|known| &known.base, format!("this is no structure that was written down: {reason}"))
 }
 
 /// A solver ended without an answer on a structure of so many blocks.

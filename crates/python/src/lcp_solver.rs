@@ -2,15 +2,22 @@
 
 use crate::{
     errors::lcp_error,
+    guard::Guarded,
     lcp::{LcpSolution, values, whole_numbers},
 };
 use drystone_lcp::{Counts, LcpError, Problem, Settings, Snapshot, Solver, SparseColumns, cone::Columns};
 use numpy::PyReadonlyArray1;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyBytes};
 
-#[pyclass(module = "drystone._core")]
+#[pyclass(frozen, module = "drystone._core")]
 pub struct LcpSolver {
-    core: Solver,
+    core: Guarded<Solver>,
+}
+
+impl LcpSolver {
+    fn of(core: Solver) -> Self {
+        Self { core: Guarded::new("Solver", core) }
+    }
 }
 
 /// A state of an `LcpSolver`.
@@ -44,7 +51,7 @@ impl LcpSolver {
         let (data, q) = (values(&data), values(&q));
         raised(py.detach(|| {
             let m = SparseColumns::new(indptr.len().saturating_sub(1), indptr, indices, data)?;
-            Ok(Self { core: Solver::new(Problem::new(m, q)?, settings(pivot_limit))? })
+            Ok(Self::of(Solver::new(Problem::new(m, q)?, settings(pivot_limit))?))
         }))
     }
 
@@ -64,53 +71,68 @@ impl LcpSolver {
         let (data, inverse_mass, h) = (values(&data), values(&inverse_mass), values(&h));
         raised(py.detach(|| {
             let g = Columns::new(h.len(), &indptr, &indices, &data)?;
-            Ok(Self { core: Solver::from_generators(&g, &inverse_mass, &h, settings(pivot_limit))? })
+            Ok(Self::of(Solver::from_generators(&g, &inverse_mass, &h, settings(pivot_limit))?))
         }))
     }
 
-    fn add_rows(&mut self, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
-        raised(self.core.add_rows(&whole_numbers(&rows, "rows")?))
+    fn add_rows(&self, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
+        raised(self.core.write()?.add_rows(&whole_numbers(&rows, "rows")?))
     }
 
-    fn remove_rows(&mut self, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
-        raised(self.core.remove_rows(&whole_numbers(&rows, "rows")?))
+    fn remove_rows(&self, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
+        raised(self.core.write()?.remove_rows(&whole_numbers(&rows, "rows")?))
     }
 
-    fn set_q(&mut self, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
-        raised(self.core.set_q(&values(&q)))
+    fn set_q(&self, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+        raised(self.core.write()?.set_q(&values(&q)))
     }
 
-    fn set_q_at(&mut self, rows: PyReadonlyArray1<'_, i64>, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
-        raised(self.core.set_q_at(&whole_numbers(&rows, "rows")?, &values(&q)))
+    fn set_q_at(&self, rows: PyReadonlyArray1<'_, i64>, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+        raised(self.core.write()?.set_q_at(&whole_numbers(&rows, "rows")?, &values(&q)))
     }
 
     /// Complete vectors: z = 0 on the rows that are not present.
-    fn solve(&mut self, py: Python<'_>) -> PyResult<LcpSolution> {
-        let core = &mut self.core;
+    fn solve(&self, py: Python<'_>) -> PyResult<LcpSolution> {
+        let mut guard = self.core.write()?;
+        let core = &mut *guard;
         let solution = raised(py.detach(|| core.solve().map(|status| core.solution(status))))?;
         Ok(LcpSolution::new(py, solution))
     }
 
-    fn snapshot(&self) -> LcpSnapshot {
-        LcpSnapshot { core: self.core.snapshot() }
+    fn snapshot(&self) -> PyResult<LcpSnapshot> {
+        Ok(LcpSnapshot { core: self.core.read()?.snapshot() })
     }
 
-    fn restore(&mut self, snapshot: &LcpSnapshot) -> PyResult<()> {
-        raised(self.core.restore(&snapshot.core))
+    fn restore(&self, snapshot: &LcpSnapshot) -> PyResult<()> {
+        raised(self.core.write()?.restore(&snapshot.core))
     }
 
-    fn rows(&self) -> Vec<usize> {
-        self.core.rows()
+    fn rows(&self) -> PyResult<Vec<usize>> {
+        Ok(self.core.read()?.rows())
     }
 
-    fn q(&self) -> Vec<f64> {
-        self.core.problem().q().to_vec()
+    fn q(&self) -> PyResult<Vec<f64>> {
+        Ok(self.core.read()?.problem().q().to_vec())
     }
 
     /// (major cycles, minor cycles, pivots, refactorisations, factor rows, entries solved) so far.
-    fn counts(&self) -> (usize, usize, usize, usize, usize, usize) {
+    #[allow(clippy::type_complexity)]
+    fn counts(&self) -> PyResult<(usize, usize, usize, usize, usize, usize)> {
         let Counts { major_cycles, minor_cycles, pivots, refactorisations, factor_rows, entries_solved } =
-            self.core.counts();
-        (major_cycles, minor_cycles, pivots, refactorisations, factor_rows, entries_solved)
+            self.core.read()?.counts();
+        Ok((major_cycles, minor_cycles, pivots, refactorisations, factor_rows, entries_solved))
+    }
+
+    fn copy(&self) -> PyResult<Self> {
+        Ok(Self::of(self.core.read()?.clone()))
+    }
+
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.core.read()?.to_bytes()))
+    }
+
+    #[staticmethod]
+    fn from_bytes(state: &[u8]) -> PyResult<Self> {
+        raised(Solver::from_bytes(state).map(Self::of))
     }
 }

@@ -4,6 +4,7 @@ mod arrays;
 mod coordinates;
 mod errors;
 mod forces;
+mod guard;
 mod lcp;
 mod lcp_solver;
 mod plan;

@@ -136,7 +136,8 @@ pub fn plan(
         true => Asked::Callback(Callback { function: test.clone().unbind() }),
         false => Asked::Named(named_test(&test.extract::<String>()?)?),
     };
-    let planned = py.detach(|| match &scene.core {
+    let scene = scene.now();
+    let planned = py.detach(|| match &*scene {
         AnyScene::Plane(scene) => planned(scene, &assembly, asked, &conditions, limits, &mut watch),
         AnyScene::Space(scene) => planned(scene, &assembly, asked, &conditions, limits, &mut watch),
     });

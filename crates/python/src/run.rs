@@ -1,6 +1,6 @@
 //! What steps leave behind: `StepRecord` of one, `Run` of many.
 
-use crate::arrays::vector;
+use crate::arrays::{read_only, vector};
 use drystone::{
     Body,
     geometry::Numbers,
@@ -90,11 +90,10 @@ impl StepRecord {
 
 impl Run {
     pub fn new<S: Moving>(py: Python<'_>, run: &CoreRun<S>, dt: f64, bodies: usize) -> PyResult<Self> {
-        let numbers = |of: &dyn Fn(&CoreRecord) -> f64| {
-            PyArray1::from_iter(py, run.records.iter().map(of).collect::<Vec<_>>()).unbind()
-        };
+        let numbers =
+            |of: &dyn Fn(&CoreRecord) -> f64| vector(py, run.records.iter().map(of).collect::<Vec<f64>>()).unbind();
         let counts = |of: &dyn Fn(&CoreRecord) -> usize| {
-            PyArray1::from_iter(py, run.records.iter().map(|record| of(record) as i64).collect::<Vec<_>>()).unbind()
+            vector(py, run.records.iter().map(|record| of(record) as i64).collect::<Vec<_>>()).unbind()
         };
         let still: Vec<bool> = run.records.iter().flat_map(|record| record.motionless.iter().copied()).collect();
         let places = run.records.iter().flat_map(|record| match record.inconsistent {
@@ -112,7 +111,7 @@ impl Run {
             reason,
             poses: moments(py, &run.poses, bodies)?,
             velocities: moments(py, &run.velocities, bodies)?,
-            motionless: PyArray1::from_vec(py, still).reshape([run.records.len(), bodies])?.unbind(),
+            motionless: read_only(PyArray1::from_vec(py, still).reshape([run.records.len(), bodies])?).unbind(),
             pivots: counts(&|r| r.counts.pivots),
             major_cycles: counts(&|r| r.counts.major_cycles),
             minor_cycles: counts(&|r| r.counts.minor_cycles),
@@ -121,16 +120,16 @@ impl Run {
             rows_reused: counts(&|r| r.rows_reused),
             projections: counts(&|r| r.projections),
             collisions: counts(&|r| r.collisions),
-            inconsistent: PyArray1::from_iter(py, places).reshape([run.records.len(), 2])?.unbind(),
+            inconsistent: read_only(PyArray1::from_iter(py, places).reshape([run.records.len(), 2])?).unbind(),
             solve_seconds: numbers(&|r| r.solve_time.as_secs_f64()),
             step_seconds: numbers(&|r| r.time.as_secs_f64()),
             residual: numbers(&|r| r.residual),
             friction_error: numbers(&|r| r.friction_error),
             penetration: numbers(&|r| r.penetration),
-            force_starts: PyArray1::from_vec(py, forces.starts).unbind(),
-            force_bodies: PyArray1::from_vec(py, forces.bodies).reshape([forces.count, 2])?.unbind(),
-            force_points: PyArray1::from_vec(py, forces.points).reshape([forces.count, axes])?.unbind(),
-            forces: PyArray1::from_vec(py, forces.forces).reshape([forces.count, axes])?.unbind(),
+            force_starts: vector(py, forces.starts).unbind(),
+            force_bodies: read_only(PyArray1::from_vec(py, forces.bodies).reshape([forces.count, 2])?).unbind(),
+            force_points: read_only(PyArray1::from_vec(py, forces.points).reshape([forces.count, axes])?).unbind(),
+            forces: read_only(PyArray1::from_vec(py, forces.forces).reshape([forces.count, axes])?).unbind(),
         })
     }
 }
@@ -165,5 +164,5 @@ impl Forces {
 fn moments<V: Numbers>(py: Python<'_>, values: &[Vec<V>], bodies: usize) -> PyResult<Py<PyArray3<f64>>> {
     let flat: Vec<f64> = values.iter().flatten().flat_map(|value| value.as_ref()).copied().collect();
     let numbers = V::default().as_ref().len();
-    Ok(PyArray1::from_vec(py, flat).reshape([values.len(), bodies, numbers])?.unbind())
+    Ok(read_only(PyArray1::from_vec(py, flat).reshape([values.len(), bodies, numbers])?).unbind())
 }

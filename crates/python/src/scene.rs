@@ -15,11 +15,15 @@ use pyo3::{
     prelude::*,
     types::PyDict,
 };
-use std::collections::BTreeMap;
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
 
-#[pyclass(module = "drystone._core")]
+/// Who works with the bodies takes them as they are at that moment; a change meanwhile, by another thread too, makes others.
+#[pyclass(frozen, module = "drystone._core")]
 pub struct Scene {
-    pub core: AnyScene,
+    core: Mutex<Arc<AnyScene>>,
 }
 
 /// A snapshot of one body in the plane. `vertices` is (n, 2) in world coordinates, metres, counter-clockwise.
@@ -117,44 +121,69 @@ pub fn cones(choice: Option<(usize, String)>) -> PyResult<Cones> {
 }
 
 impl Scene {
+    pub fn of(core: AnyScene) -> Self {
+        Self { core: Mutex::new(Arc::new(core)) }
+    }
+
+    /// The bodies as they are now.
+    pub fn now(&self) -> Arc<AnyScene> {
+        Arc::clone(&self.lock())
+    }
+
+    /// A body is added whole or not at all: what a panic left behind is a scene.
+    fn lock(&self) -> MutexGuard<'_, Arc<AnyScene>> {
+        self.core.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// The contacts and generators, found without holding Python's lock.
     pub fn assembly(&self, py: Python<'_>, friction_cones: Option<(usize, String)>) -> PyResult<Assembly> {
-        let cones = cones(friction_cones)?;
-        raised(py.detach(|| self.core.assembly(cones)))
+        let (cones, scene) = (cones(friction_cones)?, self.now());
+        raised(py.detach(|| scene.assembly(cones)))
     }
 
     /// The scene, if it is in the plane.
     pub fn planar(&self) -> PyResult<drystone::Scene> {
-        raised(self.core.clone().in_plane())
+        raised(AnyScene::clone(&self.now()).in_plane())
     }
 
-    fn plane(&mut self) -> PyResult<&mut drystone::Scene> {
-        match &mut self.core {
-            AnyScene::Plane(scene) => Ok(scene),
+    /// Adds a body by `place` and returns its name.
+    fn add_in_plane(&self, place: impl FnOnce(&mut drystone::Scene) -> Result<usize, SceneError>) -> PyResult<String> {
+        match Arc::make_mut(&mut self.lock()) {
+            AnyScene::Plane(scene) => {
+                let added = place(scene);
+                name_of(scene, added)
+            }
             AnyScene::Space(_) => raised(Err(SceneError::NotInPlane)),
         }
     }
 
-    fn space(&mut self) -> PyResult<&mut drystone::SceneInSpace> {
-        match &mut self.core {
-            AnyScene::Space(scene) => Ok(scene),
+    /// The same in space.
+    fn add_in_space(
+        &self,
+        place: impl FnOnce(&mut drystone::SceneInSpace) -> Result<usize, SceneError>,
+    ) -> PyResult<String> {
+        match Arc::make_mut(&mut self.lock()) {
+            AnyScene::Space(scene) => {
+                let added = place(scene);
+                name_of(scene, added)
+            }
             AnyScene::Plane(_) => raised(Err(SceneError::NotInSpace)),
         }
     }
+}
 
-    fn body_at(&self, py: Python<'_>, index: usize) -> PyResult<Py<PyAny>> {
-        match &self.core {
-            AnyScene::Plane(scene) => Ok(Py::new(py, Body::of(py, scene, index)?)?.into_any()),
-            AnyScene::Space(scene) => Ok(Py::new(py, Solid::of(py, scene, index)?)?.into_any()),
-        }
+fn body_at(py: Python<'_>, scene: &AnyScene, index: usize) -> PyResult<Py<PyAny>> {
+    match scene {
+        AnyScene::Plane(scene) => Ok(Py::new(py, Body::of(py, scene, index)?)?.into_any()),
+        AnyScene::Space(scene) => Ok(Py::new(py, Solid::of(py, scene, index)?)?.into_any()),
     }
+}
 
-    fn found(&self, py: Python<'_>) -> PyResult<drystone::ContactSet> {
-        raised(py.detach(|| match &self.core {
-            AnyScene::Plane(scene) => find_contacts(scene),
-            AnyScene::Space(scene) => find_solid_contacts(scene),
-        }))
-    }
+fn found(py: Python<'_>, scene: &AnyScene) -> PyResult<drystone::ContactSet> {
+    raised(py.detach(|| match scene {
+        AnyScene::Plane(scene) => find_contacts(scene),
+        AnyScene::Space(scene) => find_solid_contacts(scene),
+    }))
 }
 
 impl Body {
@@ -227,17 +256,17 @@ impl Scene {
             [x, y, z] => raised(empty([x, y, z], friction, contact_tolerance).map(AnyScene::Space)),
             _ => Err(PyTypeError::new_err("gravity has two numbers in the plane, three in space")),
         };
-        Ok(Self { core: core? })
+        Ok(Self::of(core?))
     }
 
     #[getter]
     fn dimension(&self) -> usize {
-        self.core.dimension()
+        self.now().dimension()
     }
 
     #[getter]
     fn gravity(&self) -> Coordinates {
-        match &self.core {
+        match &*self.now() {
             AnyScene::Plane(scene) => scene.gravity().into(),
             AnyScene::Space(scene) => Coordinates::of(scene.gravity(), false),
         }
@@ -245,21 +274,21 @@ impl Scene {
 
     #[getter]
     fn friction(&self) -> f64 {
-        self.core.friction()
+        self.now().friction()
     }
 
     fn largest_friction(&self) -> f64 {
-        self.core.largest_friction()
+        self.now().largest_friction()
     }
 
     #[getter]
     fn contact_tolerance(&self) -> Option<f64> {
-        self.core.contact_tolerance()
+        self.now().contact_tolerance()
     }
 
     #[allow(clippy::too_many_arguments)]
     fn add_box(
-        &mut self,
+        &self,
         center: [f64; 2],
         size: [f64; 2],
         angle: f64,
@@ -269,14 +298,13 @@ impl Scene {
         fixed: bool,
         own: OwnInPlane,
     ) -> PyResult<String> {
-        let scene = self.plane()?;
-        let added = scene.add_box(center, size, angle, options(name, density, friction, fixed, own_in_plane(own)));
-        name_of(scene, added)
+        let options = options(name, density, friction, fixed, own_in_plane(own));
+        self.add_in_plane(|scene| scene.add_box(center, size, angle, options))
     }
 
     #[allow(clippy::too_many_arguments)]
     fn add_polygon(
-        &mut self,
+        &self,
         vertices: Vec<[f64; 2]>,
         name: Option<String>,
         density: f64,
@@ -284,14 +312,13 @@ impl Scene {
         fixed: bool,
         own: OwnInPlane,
     ) -> PyResult<String> {
-        let scene = self.plane()?;
-        let added = scene.add_polygon(&vertices, options(name, density, friction, fixed, own_in_plane(own)));
-        name_of(scene, added)
+        let options = options(name, density, friction, fixed, own_in_plane(own));
+        self.add_in_plane(|scene| scene.add_polygon(&vertices, options))
     }
 
     #[allow(clippy::too_many_arguments)]
     fn add_cuboid(
-        &mut self,
+        &self,
         center: [f64; 3],
         size: [f64; 3],
         orientation: [f64; 4],
@@ -301,15 +328,14 @@ impl Scene {
         fixed: bool,
         own: OwnInSpace,
     ) -> PyResult<String> {
-        let scene = self.space()?;
-        let pose = PoseInSpace { position: center, orientation };
-        let added = scene.add_cuboid(pose, size, options(name, density, friction, fixed, own_in_space(own)));
-        name_of(scene, added)
+        let (options, pose) =
+            (options(name, density, friction, fixed, own_in_space(own)), PoseInSpace { position: center, orientation });
+        self.add_in_space(|scene| scene.add_cuboid(pose, size, options))
     }
 
     #[allow(clippy::too_many_arguments)]
     fn add_solid(
-        &mut self,
+        &self,
         pieces: Vec<Vec<[f64; 3]>>,
         position: [f64; 3],
         orientation: [f64; 4],
@@ -319,40 +345,48 @@ impl Scene {
         fixed: bool,
         own: OwnInSpace,
     ) -> PyResult<String> {
-        let scene = self.space()?;
-        let pose = PoseInSpace { position, orientation };
-        let added = scene.add_solid(&pieces, pose, options(name, density, friction, fixed, own_in_space(own)));
-        name_of(scene, added)
+        let (options, pose) =
+            (options(name, density, friction, fixed, own_in_space(own)), PoseInSpace { position, orientation });
+        self.add_in_space(|scene| scene.add_solid(&pieces, pose, options))
     }
 
     /// The same scene in space, every block with this thickness.
     fn extruded(&self, py: Python<'_>, depth: f64) -> PyResult<Self> {
         let planar = self.planar()?;
         let solid = raised(py.detach(|| scenes::extruded(&planar, depth)))?;
-        Ok(Self { core: solid.into() })
+        Ok(Self::of(solid.into()))
+    }
+
+    /// The same scene once more; one that shares its bodies until either changes.
+    fn copy(&self) -> Self {
+        Self { core: Mutex::new(self.now()) }
     }
 
     fn __len__(&self) -> usize {
-        self.core.len()
+        self.now().len()
     }
 
     fn names(&self) -> Vec<String> {
-        (0..self.core.len()).map(|index| self.core.name(index).to_owned()).collect()
+        let scene = self.now();
+        (0..scene.len()).map(|index| scene.name(index).to_owned()).collect()
     }
 
     fn body(&self, py: Python<'_>, name: &str) -> PyResult<Py<PyAny>> {
-        self.body_at(py, raised(self.core.index_of(name))?)
+        let scene = self.now();
+        body_at(py, &scene, raised(scene.index_of(name))?)
     }
 
     fn bodies(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
-        (0..self.core.len()).map(|index| self.body_at(py, index)).collect()
+        let scene = self.now();
+        (0..scene.len()).map(|index| body_at(py, &scene, index)).collect()
     }
 
     fn contacts(&self, py: Python<'_>) -> PyResult<Vec<Contact>> {
-        let in_plane = self.core.dimension() == 2;
+        let scene = self.now();
+        let in_plane = scene.dimension() == 2;
         let contact = |c: drystone::Contact| Contact {
-            a: self.core.name(c.bodies[0]).to_owned(),
-            b: self.core.name(c.bodies[1]).to_owned(),
+            a: scene.name(c.bodies[0]).to_owned(),
+            b: scene.name(c.bodies[1]).to_owned(),
             feature: c.id.feature.to_string(),
             at_borders: c.id.feature.at_borders(),
             point: Coordinates::of(c.point, in_plane),
@@ -360,31 +394,33 @@ impl Scene {
             gap: c.gap,
             friction: c.friction,
         };
-        Ok(self.found(py)?.contacts.into_iter().map(contact).collect())
+        Ok(found(py, &scene)?.contacts.into_iter().map(contact).collect())
     }
 
     fn corner_touches(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
-        let name = |index: usize| self.core.name(index).to_owned();
-        Ok(self.found(py)?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
+        let scene = self.now();
+        let name = |index: usize| scene.name(index).to_owned();
+        Ok(found(py, &scene)?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
     }
 
     fn to_json(&self) -> String {
-        self.core.to_json()
+        self.now().to_json()
     }
 
     fn save(&self, py: Python<'_>, path: &str) -> PyResult<()> {
-        raised(py.detach(|| io::save(&self.core, path)))
+        let scene = self.now();
+        raised(py.detach(|| io::save(&scene, path)))
     }
 
     #[staticmethod]
     #[pyo3(signature = (text, source="scene"))]
     fn from_json(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
-        raised(py.detach(|| io::from_json(text, source))).map(|core| Self { core })
+        raised(py.detach(|| io::from_json(text, source))).map(Self::of)
     }
 
     #[staticmethod]
     fn load(py: Python<'_>, path: &str) -> PyResult<Self> {
-        raised(py.detach(|| io::load(path))).map(|core| Self { core })
+        raised(py.detach(|| io::load(path))).map(Self::of)
     }
 
     #[staticmethod]
@@ -397,7 +433,7 @@ impl Scene {
         let built = py.detach(|| scenes::build_while(name, &values, &mut || watch.no_interrupt()));
         match watch.error() {
             Some(error) => Err(error),
-            None => raised(built).map(|core| Self { core }),
+            None => raised(built).map(Self::of),
         }
     }
 }

@@ -1,17 +1,28 @@
 //! `Structure`: a live structure that blocks are put on and taken off.
 
-use crate::{errors::no_answer, scene::Scene, verdict::Verdict};
+use crate::{
+    errors::{no_answer, no_structure},
+    guard::Guarded,
+    scene::Scene,
+    verdict::Verdict,
+};
 use drystone::Structure as Core;
-use pyo3::prelude::*;
+use pyo3::{prelude::*, types::PyBytes};
 use std::time::Instant;
 
 /// Blocks are indices among the movable bodies, in the order of `names`.
-#[pyclass(module = "drystone._core")]
+#[pyclass(frozen, module = "drystone._core")]
 pub struct Structure {
-    core: Core,
+    core: Guarded<Core>,
     /// Of the analysis of the complete assembly, once its contacts are known.
     #[pyo3(get)]
     set_up_seconds: f64,
+}
+
+impl Structure {
+    fn of(core: Core, set_up_seconds: f64) -> Self {
+        Self { core: Guarded::new("Structure", core), set_up_seconds }
+    }
 }
 
 #[pymethods]
@@ -22,44 +33,69 @@ impl Structure {
         let assembly = scene.assembly(py, cones)?;
         let start = Instant::now();
         let core = Core::of(assembly);
-        Ok(Self { core, set_up_seconds: start.elapsed().as_secs_f64() })
+        Ok(Self::of(core, start.elapsed().as_secs_f64()))
     }
 
-    fn names(&self) -> Vec<String> {
-        let assembly = self.core.assembly();
-        (0..assembly.blocks()).map(|block| assembly.body(block).name.clone()).collect()
+    fn names(&self) -> PyResult<Vec<String>> {
+        let core = self.core.read()?;
+        let assembly = core.assembly();
+        Ok((0..assembly.blocks()).map(|block| assembly.body(block).name.clone()).collect())
     }
 
-    fn blocks(&self) -> Vec<usize> {
-        self.core.blocks().iter().collect()
+    fn blocks(&self) -> PyResult<Vec<usize>> {
+        Ok(self.core.read()?.blocks().iter().collect())
     }
 
-    fn change(&mut self, removed: Vec<usize>, added: Vec<usize>) {
-        removed.into_iter().for_each(|block| self.core.remove(block));
-        added.into_iter().for_each(|block| self.core.add(block));
+    fn change(&self, removed: Vec<usize>, added: Vec<usize>) -> PyResult<()> {
+        change(&mut *self.core.write()?, removed, added);
+        Ok(())
     }
 
     /// Takes blocks off, puts blocks on, and says whether the rest stands: (stands, seconds, pivots). The time is of
     /// everything that this asks for.
-    fn step(&mut self, removed: Vec<usize>, added: Vec<usize>) -> PyResult<(bool, f64, usize)> {
+    fn step(&self, py: Python<'_>, removed: Vec<usize>, added: Vec<usize>) -> PyResult<(bool, f64, usize)> {
+        let mut guard = self.core.write()?;
+        let core = &mut *guard;
         let start = Instant::now();
-        let before = self.core.counts().pivots;
-        self.change(removed, added);
-        let stands = self.core.stands().ok_or_else(|| no_answer(self.core.blocks().len()))?;
-        Ok((stands, start.elapsed().as_secs_f64(), self.core.counts().pivots - before))
+        let before = core.counts().pivots;
+        change(core, removed, added);
+        let stands = py.detach(|| core.stands()).ok_or_else(|| no_answer(core.blocks().len()))?;
+        Ok((stands, start.elapsed().as_secs_f64(), core.counts().pivots - before))
     }
 
-    fn check(&mut self, py: Python<'_>) -> PyResult<Verdict> {
+    fn check(&self, py: Python<'_>) -> PyResult<Verdict> {
+        let mut guard = self.core.write()?;
+        let core = &mut *guard;
         let start = Instant::now();
-        let verdict = py.detach(|| self.core.check());
-        Verdict::new(py, self.core.assembly(), &verdict, start.elapsed())
+        let verdict = py.detach(|| core.check());
+        Verdict::new(py, core.assembly(), &verdict, start.elapsed())
     }
 
-    fn pivots(&self) -> usize {
-        self.core.counts().pivots
+    fn pivots(&self) -> PyResult<usize> {
+        Ok(self.core.read()?.counts().pivots)
     }
 
-    fn entries(&self) -> usize {
-        self.core.entries()
+    fn entries(&self) -> PyResult<usize> {
+        Ok(self.core.read()?.entries())
     }
+
+    fn copy(&self) -> PyResult<Self> {
+        Ok(Self::of(self.core.read()?.clone(), self.set_up_seconds))
+    }
+
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.core.read()?.to_bytes()))
+    }
+
+    /// The structure that `to_bytes` was asked of, on the same scene with the same cones.
+    #[staticmethod]
+    fn from_bytes(py: Python<'_>, scene: &Scene, cones: Option<(usize, String)>, state: &[u8]) -> PyResult<Self> {
+        let core = Core::from_bytes(scene.assembly(py, cones)?, state).map_err(no_structure)?;
+        Ok(Self::of(core, 0.0))
+    }
+}
+
+fn change(core: &mut Core, removed: Vec<usize>, added: Vec<usize>) {
+    removed.into_iter().for_each(|block| core.remove(block));
+    added.into_iter().for_each(|block| core.add(block));
 }

@@ -3,6 +3,7 @@
 use crate::{
     arrays::rows,
     errors::{scene_error, simulation_error, step_error},
+    guard::Guarded,
     run::{Run, StepRecord},
     scene::{Scene, cones},
     verdict::ContactForce,
@@ -20,9 +21,9 @@ use pyo3::{
 };
 use std::time::{Duration, Instant};
 
-#[pyclass(module = "drystone._core")]
+#[pyclass(frozen, module = "drystone._core")]
 pub struct World {
-    core: AnyWorld,
+    core: Guarded<AnyWorld>,
 }
 
 /// In the plane or in space.
@@ -98,17 +99,18 @@ impl World {
     ) -> PyResult<Self> {
         let (reuse, formulation) = (named_reuse(reuse)?, named_formulation(formulation)?);
         let options = Options { dt, reuse, restitution, formulation, cones: cones(friction_cones)? };
+        let scene = scene.now();
         let made = py.detach(|| {
-            Ok(match scene.core.clone() {
+            Ok(match AnyScene::clone(&scene) {
                 AnyScene::Plane(scene) => AnyWorld::Plane(core::World::new(scene, options)?),
                 AnyScene::Space(scene) => AnyWorld::Space(core::World::new(scene, options)?),
             })
         });
-        Ok(Self { core: raised(made)? })
+        Ok(Self::of(raised(made)?))
     }
 
-    fn step(&mut self, py: Python<'_>) -> PyResult<StepRecord> {
-        with_world!(&mut self.core, world => {
+    fn step(&self, py: Python<'_>) -> PyResult<StepRecord> {
+        with_world!(&mut *self.core.write()?, world => {
             let record = py.detach(|| world.step()).map_err(|failure| step_error(&failure))?;
             Ok(StepRecord::new(py, record, world.scene().bodies()))
         })
@@ -116,9 +118,9 @@ impl World {
 
     /// Makes steps; `progress` is called with (steps made, steps in all) a few times a second.
     #[pyo3(signature = (steps, forces=false, progress=None))]
-    fn run(&mut self, py: Python<'_>, steps: usize, forces: bool, progress: Option<Py<PyAny>>) -> PyResult<Run> {
+    fn run(&self, py: Python<'_>, steps: usize, forces: bool, progress: Option<Py<PyAny>>) -> PyResult<Run> {
         let mut watch = Watch { progress, last: Instant::now(), error: None };
-        with_world!(&mut self.core, world => {
+        with_world!(&mut *self.core.write()?, world => {
             let run = py.detach(|| core::run(world, steps, forces, |made| watch.go_on(made, steps)));
             match watch.error {
                 Some(error) => Err(error),
@@ -128,85 +130,89 @@ impl World {
     }
 
     #[getter]
-    fn scene(&self) -> Scene {
-        Scene { core: with_world!(&self.core, world => world.scene().clone().into()) }
+    fn scene(&self) -> PyResult<Scene> {
+        Ok(Scene::of(with_world!(&*self.core.read()?, world => world.scene().clone().into())))
     }
 
     #[getter]
-    fn dimension(&self) -> usize {
-        match self.core {
+    fn dimension(&self) -> PyResult<usize> {
+        Ok(match *self.core.read()? {
             AnyWorld::Plane(_) => 2,
             AnyWorld::Space(_) => 3,
-        }
+        })
     }
 
     #[getter]
-    fn names(&self) -> Vec<String> {
-        with_world!(&self.core, world => world.scene().bodies().iter().map(|body| body.name.clone()).collect())
+    fn names(&self) -> PyResult<Vec<String>> {
+        let names = with_world!(&*self.core.read()?, world => {
+            world.scene().bodies().iter().map(|body| body.name.clone()).collect()
+        });
+        Ok(names)
     }
 
     #[getter]
-    fn dt(&self) -> f64 {
-        self.options().dt
+    fn dt(&self) -> PyResult<f64> {
+        Ok(self.options()?.dt)
     }
 
     #[getter]
-    fn reuse(&self) -> &'static str {
-        self.options().reuse.name()
+    fn reuse(&self) -> PyResult<&'static str> {
+        Ok(self.options()?.reuse.name())
     }
 
     #[getter]
-    fn restitution(&self) -> f64 {
-        self.options().restitution
+    fn restitution(&self) -> PyResult<f64> {
+        Ok(self.options()?.restitution)
     }
 
     #[getter]
-    fn formulation(&self) -> &'static str {
-        self.options().formulation.name()
+    fn formulation(&self) -> PyResult<&'static str> {
+        Ok(self.options()?.formulation.name())
     }
 
     #[getter]
-    fn steps(&self) -> u64 {
-        with_world!(&self.core, world => world.steps())
+    fn steps(&self) -> PyResult<u64> {
+        Ok(with_world!(&*self.core.read()?, world => world.steps()))
     }
 
     #[getter]
-    fn energy(&self) -> f64 {
-        with_world!(&self.core, world => world.energy())
+    fn energy(&self) -> PyResult<f64> {
+        Ok(with_world!(&*self.core.read()?, world => world.energy()))
     }
 
     #[getter]
     fn poses<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        with_world!(&self.core, world => rows(py, &world.poses().collect::<Vec<_>>()))
+        with_world!(&*self.core.read()?, world => rows(py, &world.poses().collect::<Vec<_>>()))
     }
 
     #[getter]
     fn velocities<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        with_world!(&self.core, world => rows(py, &world.velocities()))
+        with_world!(&*self.core.read()?, world => rows(py, &world.velocities()))
     }
 
     #[getter]
-    fn motionless<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        with_world!(&self.core, world => crate::arrays::vector(py, world.motionless().to_vec()))
+    fn motionless<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        Ok(with_world!(&*self.core.read()?, world => crate::arrays::vector(py, world.motionless().to_vec())))
     }
 
     /// Mean forces of the last step at the contacts that bear.
-    fn forces(&self) -> Vec<ContactForce> {
-        let dt = self.options().dt;
-        with_world!(&self.core, world => {
+    fn forces(&self) -> PyResult<Vec<ContactForce>> {
+        let forces = with_world!(&*self.core.read()?, world => {
+            let dt = world.options().dt;
             let bearing = world.contact_impulses().into_iter().filter(|contact| contact.along_normal > 0.0);
             bearing.map(|contact| ContactForce::of_impulse(world.scene().bodies(), &contact, dt)).collect()
-        })
+        });
+        Ok(forces)
     }
 
-    fn set_velocity(&mut self, name: &str, velocity: Vec<f64>) -> PyResult<()> {
-        with_world!(&mut self.core, world => raised(world.set_velocity(name, fixed(&velocity, "a velocity")?)))
+    fn set_velocity(&self, name: &str, velocity: Vec<f64>) -> PyResult<()> {
+        with_world!(&mut *self.core.write()?, world => raised(world.set_velocity(name, fixed(&velocity, "a velocity")?)))
     }
 
     /// `wrench`: force and moment.
     #[pyo3(signature = (name, wrench, at=None))]
-    fn apply_force(&mut self, name: &str, wrench: Vec<f64>, at: Option<Vec<f64>>) -> PyResult<()> {
-        match &mut self.core {
+    fn apply_force(&self, name: &str, wrench: Vec<f64>, at: Option<Vec<f64>>) -> PyResult<()> {
+        match &mut *self.core.write()? {
             AnyWorld::Plane(world) => {
                 let (wrench, at) = push::<Polygon>(&wrench, at.as_deref())?;
                 raised(world.apply_force(name, wrench, at))
@@ -220,8 +226,8 @@ impl World {
 
     /// `wrench`: impulse and impulsive moment.
     #[pyo3(signature = (name, wrench, at=None))]
-    fn apply_impulse(&mut self, name: &str, wrench: Vec<f64>, at: Option<Vec<f64>>) -> PyResult<()> {
-        match &mut self.core {
+    fn apply_impulse(&self, name: &str, wrench: Vec<f64>, at: Option<Vec<f64>>) -> PyResult<()> {
+        match &mut *self.core.write()? {
             AnyWorld::Plane(world) => {
                 let (wrench, at) = push::<Polygon>(&wrench, at.as_deref())?;
                 raised(world.apply_impulse(name, wrench, at))
@@ -234,20 +240,20 @@ impl World {
     }
 
     /// Takes up the bodies that this scene has beyond the world's.
-    fn extend(&mut self, scene: &Scene) -> PyResult<()> {
-        let scene = scene.core.clone();
-        match &mut self.core {
+    fn extend(&self, scene: &Scene) -> PyResult<()> {
+        let scene = AnyScene::clone(&scene.now());
+        match &mut *self.core.write()? {
             AnyWorld::Plane(world) => raised(world.extend(scene.in_plane().map_err(|error| scene_error(&error))?)),
             AnyWorld::Space(world) => raised(world.extend(scene.in_space().map_err(|error| scene_error(&error))?)),
         }
     }
 
-    fn remove(&mut self, name: &str) -> PyResult<()> {
-        with_world!(&mut self.core, world => raised(world.remove(name)))
+    fn remove(&self, name: &str) -> PyResult<()> {
+        with_world!(&mut *self.core.write()?, world => raised(world.remove(name)))
     }
 
-    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        with_world!(&self.core, world => PyBytes::new(py, &world.snapshot()))
+    fn snapshot<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(with_world!(&*self.core.read()?, world => PyBytes::new(py, &world.snapshot())))
     }
 
     #[staticmethod]
@@ -256,17 +262,21 @@ impl World {
             2 => AnyWorld::Plane(raised(core::World::restore(snapshot))?),
             _ => AnyWorld::Space(raised(core::World::restore(snapshot))?),
         };
-        Ok(Self { core })
+        Ok(Self::of(core))
     }
 
-    fn state_hash(&self) -> u64 {
-        with_world!(&self.core, world => world.hash())
+    fn state_hash(&self) -> PyResult<u64> {
+        Ok(with_world!(&*self.core.read()?, world => world.hash()))
     }
 }
 
 impl World {
-    fn options(&self) -> Options {
-        with_world!(&self.core, world => world.options())
+    fn of(core: AnyWorld) -> Self {
+        Self { core: Guarded::new("World", core) }
+    }
+
+    fn options(&self) -> PyResult<Options> {
+        Ok(with_world!(&*self.core.read()?, world => world.options()))
     }
 }
 
