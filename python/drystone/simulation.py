@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import copy
-import json
-import os
-import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from os import PathLike
@@ -14,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
+from drystone.files import write_whole
 from drystone.scene import Scene
 from drystone.verdict import counted, shorten
 
@@ -40,10 +38,6 @@ ENDINGS = {
 
 Progress = Callable[[int, int], None]
 """Called with (steps made, steps in all) a few times a second."""
-
-_FORMAT = "drystone-run"
-_UNREADABLE = (AttributeError, EOFError, KeyError, TypeError, ValueError)
-_VERSION = 1
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -237,65 +231,20 @@ class Run:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the run as a compressed NumPy archive (.npz), whole or not at all."""
-        import numpy as np
+        from drystone import run_file
 
-        arrays = {
-            f.name: getattr(self, f.name)
-            for f in fields(self)
-            if hasattr(getattr(self, f.name), "dtype")
-        }
-        about = {
-            "format": _FORMAT,
-            "version": _VERSION,
-            "status": self.status,
-            "reason": self.reason,
-            "names": list(self.names),
-            "dt": self.dt,
-            "reuse": self.reuse,
-            "restitution": self.restitution,
-            "formulation": self.formulation,
-            "scene": self.scene.to_json(),
-        }
-        target = Path(path)
-        handle, name = tempfile.mkstemp(
-            dir=target.parent, prefix=f".{target.name}.", suffix=".part"
-        )
-        try:
-            with os.fdopen(handle, "wb") as file:
-                np.savez_compressed(file, about=np.array(json.dumps(about)), **arrays)
-            os.replace(name, target)
-        except BaseException:
-            os.unlink(name)
-            raise
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        arrays = {name: value for name, value in values.items() if hasattr(value, "dtype")}
+        about = {name: value for name, value in values.items() if name not in arrays}
+        about = {**about, "names": list(self.names), "scene": self.scene.to_json()}
+        write_whole(Path(path), run_file.pack(about, arrays))
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Run:
         """Read a run that `save` wrote; SimulationError for another or a damaged file."""
-        import zipfile
-        import zlib
+        from drystone import run_file
 
-        import numpy as np
-
-        try:
-            with open(path, "rb") as file, np.load(file, allow_pickle=False) as archive:
-                about = json.loads(str(archive["about"]))
-                arrays = {name: archive[name] for name in archive.files if name != "about"}
-            if (about.pop("format"), about.pop("version")) != (_FORMAT, _VERSION):
-                raise ValueError("it is of another format or version")
-            about["names"] = tuple(about["names"])
-            if "formulation" not in about:  # written when there was one only
-                steps = len(arrays["pivots"])
-                about["formulation"] = "velocity"
-                arrays["collisions"] = np.zeros(steps, dtype=np.int64)
-                arrays["inconsistent"] = np.full((steps, 2), -1, dtype=np.int64)
-            about["scene"] = Scene.from_json(about["scene"])
-            return cls(**about, **arrays)
-        except OSError:
-            raise
-        except (*_UNREADABLE, zipfile.BadZipFile, zlib.error) as error:
-            raise _core.SimulationError(
-                f"{os.fspath(path)}: this is no run that drystone recorded ({error})"
-            ) from None
+        return cls(**run_file.load(path))
 
 
 def simulate(

@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drystone._core import SceneError
+from drystone._core import DrystoneError, SceneError
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.fields import read_json
@@ -132,13 +132,20 @@ def load(
             kind = _read_data(compas_data.data_of(source), source, collected, taking)
         else:
             kind = _read(source, collected, taking, split)
+        collected.measure()
+        collected.lay_planes()
+        collected.transform(scale, UP[up])
     except (FormatError, MeshError) as error:
         if live or str(source) in str(error):
             raise
         raise type(error)(f"{source}: {error}") from None
-    collected.measure()
-    collected.lay_planes()
-    collected.transform(scale, UP[up])
+    except (OSError, MemoryError, DrystoneError):
+        raise
+    except Exception as error:  # files are broken in ways that no reader foresees
+        if live:
+            raise
+        reason = f"{type(error).__name__}: {' '.join(str(error).split()):.200}"
+        raise FormatError(f"{source}: cannot be read ({reason})") from None
     if not collected.bodies:
         where = "" if live else f"{source}: "
         raise FormatError(f"{where}nothing in it can be taken{_reasons(collected)}")

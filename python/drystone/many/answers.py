@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from drystone import _core
 from drystone.verdict import counted, shorten
 
 
@@ -41,7 +42,7 @@ class ScenePlan:
         if record is None:
             if self.file is None:
                 return {}
-            record = json.loads(self.file.read_text(encoding="utf-8"))
+            record = _read(self.file)
         plan: dict[str, Any] = record.get("plan", {})
         return plan
 
@@ -62,6 +63,17 @@ class ScenePlan:
             "reused": self.reused,
             "file": None if self.file is None else str(self.file),
         }
+
+
+def _read(file: Path) -> dict[str, Any]:
+    """The record in a file; DrystoneError if it has been damaged since it was written."""
+    try:
+        record = json.loads(file.read_bytes())
+    except (ValueError, RecursionError):
+        record = None
+    if not isinstance(record, dict) or not isinstance(record.get("plan", {}), dict):
+        raise _core.DrystoneError(f"{file}: this is no plan that drystone wrote; plan it again")
+    return record
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,7 +68,7 @@ class Store:
         record = _sound(self._folder / job.key)
         if (
             record is None
-            or record["scene"]["sha256"] != job.sha256
+            or record["scene"].get("sha256") != job.sha256
             or record["settings"] != self._settings
         ):
             return None
@@ -147,7 +147,7 @@ def read_index(folder: str | PathLike[str]) -> list[dict[str, Any]]:
     for line in content.split(b"\n"):
         try:
             entry = json.loads(line)
-        except ValueError:
+        except (ValueError, RecursionError):
             continue
         if isinstance(entry, dict):
             lines.append(entry)
@@ -172,14 +172,22 @@ def _sound(path: Path) -> dict[str, Any] | None:
     """The record in a file; None if there is none or it is not what was written."""
     try:
         record = json.loads(path.read_bytes())
-    except (FileNotFoundError, ValueError):
+    except (FileNotFoundError, ValueError, RecursionError):
         return None
     if not isinstance(record, dict) or (record.get("format"), record.get("version")) != (
         FORMAT,
         VERSION,
     ):
         return None
-    return record if record.get("sha256") == _digest(record) else None
+    whole = (
+        record.get("sha256") == _digest(record)
+        and isinstance(record.get("scene"), dict)
+        and isinstance(record.get("settings"), dict)
+        and isinstance(record.get("state"), str)
+        and isinstance(record.get("plan", {}), dict)
+        and (record.get("error") is None or {"type", "message"} <= set(record["error"]))
+    )
+    return record if whole else None
 
 
 def _locked(path: Path) -> IO[bytes]:
