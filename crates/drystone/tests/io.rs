@@ -216,6 +216,18 @@ fn text_that_is_not_json_tells_the_place() {
 }
 
 #[test]
+fn a_field_given_twice_is_refused() {
+    for (once, twice) in
+        [("\"friction\": 0.5", "\"friction\": 0.1, \"friction\": 0.5"), ("\"box\"", "\"box\": 1, \"box\"")]
+    {
+        let text = with_bodies(r#"{"box": {"size": [1.0, 1.0]}}"#);
+        assert!(text.contains(once), "{text}");
+        let error = error_of(&text.replacen(once, twice, 1));
+        assert!(error.to_string().contains("is given twice"), "{error}");
+    }
+}
+
+#[test]
 fn saving_replaces_a_file_and_leaves_nothing_else() {
     let folder = folder("replace");
     let path = folder.join("scene.json");

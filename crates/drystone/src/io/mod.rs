@@ -27,6 +27,7 @@ mod fields;
 mod file;
 mod read;
 mod shapes;
+mod unique;
 mod weight;
 mod write;
 

@@ -2,6 +2,7 @@
 
 use super::fields::{Fields, brief, wrong_type};
 use super::shapes::Stored;
+use super::unique::Unique;
 use super::{FORMAT, VERSION, weight};
 use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
@@ -20,7 +21,7 @@ const BODY_FIELDS: [&str; 3] = ["name", "friction", "fixed"];
 /// Every error is a [`SceneError::File`] that says file, place and fix; a body that is
 /// well-formed but not valid is [`FileError::Invalid`] around the reason.
 pub fn from_json(text: &str, file: &str) -> Result<AnyScene, SceneError> {
-    let document: Value = serde_json::from_str(text).map_err(|error| syntax(file, text, &error))?;
+    let Unique(document) = serde_json::from_str(text).map_err(|error| syntax(file, text, &error))?;
     match dimension(file, &document)? {
         2 => read::<Polygon>(file, &document).map(AnyScene::Plane),
         _ => read::<Solid>(file, &document).map(AnyScene::Space),
