@@ -118,14 +118,16 @@ class Scene:
                 raise _core.SceneError("a box in the plane is turned by angle=, not orientation=")
             corner, sides = _pair(center, "center"), _pair(size, "size")
             own = weight.in_plane(mass, center_of_mass, inertia)
-            return self._core.add_box(corner, sides, angle, name, density, friction, fixed, own)
+            return self._core.add_box(
+                corner, sides, angle, _name(name), density, friction, fixed, own
+            )
         if angle != 0.0:
             raise _core.SceneError("a box in space is turned by orientation=, not angle=")
         return self._core.add_cuboid(
             _triple(center, "center"),
             _triple(size, "size"),
             _quaternion(orientation),
-            name,
+            _name(name),
             density,
             friction,
             fixed,
@@ -157,7 +159,7 @@ class Scene:
             )
         corners = [_pair(vertex, "a vertex") for vertex in vertices]
         own = weight.in_plane(mass, center_of_mass, inertia)
-        return self._core.add_polygon(corners, name, density, friction, fixed, own)
+        return self._core.add_polygon(corners, _name(name), density, friction, fixed, own)
 
     def add_polyhedron(
         self,
@@ -218,7 +220,7 @@ class Scene:
             [[_triple(vertex, "a vertex") for vertex in piece] for piece in pieces],
             _triple(position, "position"),
             _quaternion(orientation),
-            name,
+            _name(name),
             density,
             friction,
             fixed,
@@ -375,7 +377,7 @@ class Scene:
 
     def body(self, name: str) -> Any:
         """The body called `name`, a `Body` or a `Solid`; SceneError if there is none."""
-        return snapshot(self._core.body(name))
+        return snapshot(self._core.body(_name(name) or ""))
 
     @property
     def contacts(self) -> list[Contact]:
@@ -418,6 +420,17 @@ class Scene:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self).from_json, (self.to_json(),)
+
+
+def _name(name: str | None) -> str | None:
+    """A name as the core takes it; SceneError for what is no text."""
+    if name is None:
+        return None
+    try:
+        name.encode()
+    except (AttributeError, UnicodeEncodeError):
+        raise _core.SceneError(f"a name must be text, not {name!r:.60}") from None
+    return name
 
 
 def _pair(value: Point, what: str) -> tuple[float, float]:

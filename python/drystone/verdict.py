@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
+from drystone.text import shown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -240,7 +241,7 @@ def counted(number: int, thing: str) -> str:
 
 def shorten(names: Iterable[str], limit: int = 8) -> str:
     """The first few names, and how many more there are."""
-    every = list(names)
+    every = [shown(name) for name in names]
     if len(every) <= limit:
         return ", ".join(every)
     return ", ".join(every[:limit]) + f" and {len(every) - limit} more"

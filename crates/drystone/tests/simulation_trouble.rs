@@ -83,7 +83,8 @@ fn refuses_damage(bytes: &[u8], restore: impl Fn(&[u8]) -> Result<(), Simulation
 fn the_hash_covers_what_decides_the_motion() {
     let scene = |size: f64, density: f64, friction: f64, own: Option<f64>, gravity: f64, fixed: bool, name: &str| {
         let mut scene = Scene::new([0.0, gravity], friction).unwrap();
-        let options = BodyOptions { density, friction: own, fixed, name: Some(name.to_owned()) };
+        let options =
+            BodyOptions { density, friction: own, fixed, name: Some(name.to_owned()), ..BodyOptions::default() };
         scene.add_box([0.0, 0.0], [size, 1.0], 0.0, options).unwrap();
         scene
     };

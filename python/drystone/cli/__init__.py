@@ -1,53 +1,108 @@
-"""The command line: `drystone check | plan | simulate | scene | bench`.
+"""The command line: `drystone check | plan | simulate | scene | import | bench`.
 
 Exit status: 0 for yes, 1 for no (it does not stand, there is no order, a step could not be made), 2
-for bad input, which is one line on standard error.
+for everything else that went wrong, which is one line on standard error, 130 after Ctrl-C. Whoever
+reads standard output may stop: then the status is that of SIGPIPE, 141, and nothing is said.
 """
 
 from __future__ import annotations
 
+import contextlib
+import os
 import sys
+from typing import TextIO
 
 BAD_INPUT = 2
 INTERRUPTED = 130
+NOT_READ = 141
 
 
 def main() -> None:
     """Run the command line given to the process."""
-    sys.exit(run(sys.argv[1:]))
+    for stream in (sys.stdout, sys.stderr):
+        # A name that a stream's encoding does not know is no reason to fail.
+        if stream is not None and hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        status = run(sys.argv[1:])
+    except KeyboardInterrupt:
+        status = INTERRUPTED
+    _abandon(sys.stdout)
+    _abandon(sys.stderr)
+    sys.exit(status)
 
 
 def run(arguments: list[str]) -> int:
     """Run one command line and return its exit status."""
-    from drystone.cli.app import app
-    from drystone.cli.errors import InputError
-
     try:
+        from drystone.cli.app import app
+
         result = app(arguments, prog_name="drystone", standalone_mode=False)
-    except InputError as error:
-        return _complain(str(error))
+        if sys.stdout is not None:
+            sys.stdout.flush()
+        return result if isinstance(result, int) else 0
+    except BrokenPipeError:
+        return NOT_READ
     except KeyboardInterrupt:
         return INTERRUPTED
-    except Exception as error:
-        return _known(error)
-    return result if isinstance(result, int) else 0
+    except SystemExit as error:  # the parser's answer to a closed pipe, with status 1
+        return NOT_READ if isinstance(error.__context__, BrokenPipeError) else BAD_INPUT
+    except BaseException as error:  # a panic of the compiled core is no Exception
+        return _failed(error)
 
 
-def _known(error: Exception) -> int:
-    """The exit status for an error of the command line's own or of the compiled core."""
+def _failed(error: BaseException) -> int:
+    """The exit status for whatever a command ended with, after one line about it."""
+    if type(error).__name__ == "Abort":  # the parser's word for Ctrl-C
+        return INTERRUPTED
+    return _complain(_said(error))
+
+
+def _said(error: BaseException) -> str:
+    """What to tell of it; the type too if it is none of those that speak to users."""
     # The parser's errors: one class in typer of today, another package's in older ones.
     format_message = getattr(error, "format_message", None)
     if format_message is not None:
-        return _complain(format_message() or str(error))
-    if type(error).__name__ == "Abort":
-        return INTERRUPTED
-    from drystone import DrystoneError
+        return str(format_message() or error)
+    if isinstance(error, MemoryError):
+        return "there is not enough memory for this"
+    if isinstance(error, OSError):
+        where = f"{error.filename}: " if error.filename else ""
+        return f"{where}{error.strerror or error}"
+    if _speaks(error):
+        return str(error)
+    return f"{type(error).__name__}: {error} (this is a fault of drystone: please report it)"
 
-    if isinstance(error, DrystoneError):
-        return _complain(str(error))
-    raise error
+
+def _speaks(error: BaseException) -> bool:
+    from drystone.cli.errors import InputError
+
+    if isinstance(error, InputError):
+        return True
+    try:
+        from drystone import DrystoneError
+    except ImportError:
+        return False
+    return isinstance(error, DrystoneError)
 
 
 def _complain(message: str) -> int:
-    print("drystone: " + " ".join(message.split()), file=sys.stderr)
+    from drystone.text import shown
+
+    if sys.stderr is not None:
+        with contextlib.suppress(OSError, ValueError):  # nobody is there to be told
+            print("drystone: " + shown(" ".join(message.split())), file=sys.stderr, flush=True)
     return BAD_INPUT
+
+
+def _abandon(stream: TextIO | None) -> None:
+    """What a full disk or a closed pipe did not take must not raise again at the end."""
+    if stream is None:
+        return
+    try:
+        stream.flush()
+    except (OSError, ValueError):
+        with contextlib.suppress(OSError, ValueError):
+            null = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(null, stream.fileno())
+            os.close(null)

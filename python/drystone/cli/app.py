@@ -56,6 +56,10 @@ def check(
     blocks: Annotated[
         str | None, typer.Option(help="Only these blocks, names separated by commas.")
     ] = None,
+    block: Annotated[
+        list[str] | None,
+        typer.Option(help="One of them, its name as it is; to be repeated."),
+    ] = None,
     as_json: AsJson = False,
     output: Picture = None,
     facets: Facets = 8,
@@ -66,7 +70,7 @@ def check(
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command
 
-    return command.run(scene, blocks, as_json, output, facets, cone.value)
+    return command.run(scene, blocks, block, as_json, output, facets, cone.value)
 
 
 @app.command()
@@ -233,6 +237,9 @@ def import_(
     fixed: Annotated[
         str | None, typer.Option(help="Bodies that never move, names separated by commas.")
     ] = None,
+    fix: Annotated[
+        list[str] | None, typer.Option(help="One of them, its name as it is; to be repeated.")
+    ] = None,
     ground: Annotated[
         bool, typer.Option("--ground", help="Lay a fixed box under everything.")
     ] = False,
@@ -276,6 +283,7 @@ def import_(
         density=density,
         gravity=gravity,
         fixed=fixed,
+        fix=fix,
         ground=ground,
         tolerance=tolerance,
         max_pieces=max_pieces,

@@ -7,18 +7,18 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drystone.cli.inputs import load_scene, reporting_files
+from drystone.cli.output import console
+from drystone.text import shown
 
 
 def paper(folder: Path) -> int:
     """Print Table I and the simulations, write the figures; 0 if all was planned and simulated."""
-    from rich.console import Console
-
     from drystone import paper
 
-    console = Console(highlight=False)
+    out = console()
     with reporting_files():
         folder.mkdir(parents=True, exist_ok=True)
-        with console.status("planning") as status:
+        with out.status("planning") as status:
             rows = paper.measure(lambda what: status.update(f"planning {what}"))
             moved = paper.measure_motions(lambda what: status.update(f"simulating {what}"))
             status.update("drawing")
@@ -26,22 +26,20 @@ def paper(folder: Path) -> int:
             written += [paper.write_motion_csv(moved, folder)]
             written += paper.write_motion_figures(moved, folder)
     for table in (*paper.as_tables(rows), *paper.motion_tables(moved)):
-        console.print(table)
+        out.print(table)
     for path in written:
-        console.print(f"written: {path}", soft_wrap=True)
+        out.print(f"written: {shown(str(path))}", soft_wrap=True)
     finished = all(run.finished for scene in moved for run in scene.runs.values())
     return 0 if finished and all(row.found for row in rows) else 1
 
 
 def methods(names: Sequence[str], repeats: int, folder: Path | None, as_json: bool) -> int:
     """Print what reuse gives to each method; 0 if every test had the right answer."""
-    from rich.console import Console
-
     from drystone import paper
 
-    console = Console(highlight=False)
+    out = console()
     # The spinner must not get into somebody's JSON.
-    with Console(stderr=True).status("building") as status:
+    with console(stderr=True).status("building") as status:
         given: paper.Cases = {(name, None): load_scene(name) for name in names}
         with reporting_files():
             if folder is not None:
@@ -53,7 +51,7 @@ def methods(names: Sequence[str], repeats: int, folder: Path | None, as_json: bo
     if as_json:
         print(json.dumps(paper.methods_as_dicts(found), indent=2))
     else:
-        console.print(paper.methods_table(found))
+        out.print(paper.methods_table(found))
         if written is not None:
-            console.print(f"written: {written}", soft_wrap=True)
+            out.print(f"written: {shown(str(written))}", soft_wrap=True)
     return 0 if all(one.failures == 0 for one in found) else 1

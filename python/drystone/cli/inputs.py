@@ -58,6 +58,11 @@ def built(builder: Callable[..., Scene], text: str) -> Scene:
     return builder(**given)
 
 
+def listed(text: str | None) -> list[str]:
+    """Names separated by commas."""
+    return [name.strip() for name in (text or "").split(",") if name.strip()]
+
+
 def python_name(name: str) -> str:
     """random-stack is random_stack."""
     return name.replace("-", "_")

@@ -7,9 +7,11 @@ from itertools import groupby
 from pathlib import Path
 
 from drystone.cli.inputs import load_scene, page_path, picture_path, reporting_files
+from drystone.cli.output import console, facts, names
 from drystone.plan_answer import Plan
 from drystone.planning import plan
 from drystone.progress import ForcesProgress, PlanProgress
+from drystone.text import shown
 
 
 def run(
@@ -63,30 +65,27 @@ def _write(found: Plan, path: Path) -> None:
 
 
 def _print(found: Plan, picture: Path | None) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    console = Console(highlight=False)
-    console.print(str(found).splitlines()[0], style="bold green" if found.found else "bold red")
-    facts = Table.grid(padding=(0, 2))
+    out = console()
+    out.print(str(found).splitlines()[0], style="bold green" if found.found else "bold red")
+    told = facts()
     if found.found:
-        facts.add_row("remove, in this order", " ".join(found.order))
+        told.add_row("remove, in this order", names(found.order))
     else:
-        facts.add_row("largest that stands", " ".join(found.reached) or "nothing")
-        facts.add_row("falls with any of", " ".join(found.falls_next) or "nothing tried")
+        told.add_row("largest that stands", names(found.reached) or "nothing")
+        told.add_row("falls with any of", names(found.falls_next) or "nothing tried")
         if found.whole is not None:
-            facts.add_row("the whole assembly", str(found.whole))
+            told.add_row("the whole assembly", str(found.whole))
     if any(found.holds):
-        facts.add_row("hold and release", _hold_steps(found))
+        told.add_row("hold and release", _hold_steps(found))
     if found.directions:
-        facts.add_row("leaving towards", _directions(found))
+        told.add_row("leaving towards", _directions(found))
     for one in found.blocked:
-        facts.add_row(f"in the way of {one.name}", " ".join(one.by))
-    facts.add_row("stability test", found.test)
-    console.print(facts)
+        told.add_row(f"in the way of {shown(one.name)}", names(one.by))
+    told.add_row("stability test", found.test)
+    out.print(told)
     if picture is not None:
         what = "page" if page_path(picture) else "picture"
-        console.print(f"{what}: {picture}", soft_wrap=True)
+        out.print(f"{what}: {shown(str(picture))}", soft_wrap=True)
 
 
 def _hold_steps(found: Plan) -> str:
@@ -94,8 +93,8 @@ def _hold_steps(found: Plan) -> str:
     order = found.order or tuple(reversed(found.reached))
     before: dict[int, list[str]] = {}
     for action, name, k in found.hold_steps:
-        before.setdefault(k, []).append(f"{action} {name}")
-    return "; ".join(f"before {order[k]}: {', '.join(steps)}" for k, steps in before.items())
+        before.setdefault(k, []).append(f"{action} {shown(name)}")
+    return "; ".join(f"before {shown(order[k])}: {', '.join(steps)}" for k, steps in before.items())
 
 
 def _directions(found: Plan) -> str:

@@ -11,15 +11,16 @@ from typing import TYPE_CHECKING
 from drystone.cli import BAD_INPUT, INTERRUPTED
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import reporting_files
+from drystone.cli.output import MOST_ROWS, console, cut, table
 from drystone.many import ManyPlans, plan_many
 from drystone.many.progress import ManyProgress
+from drystone.text import shown
 from drystone.verdict import shorten
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-MOST_ROWS = 40
-"""Longer tables are cut, with a line that says so; --json has everything."""
+WHY = "why there is no order"
 
 
 def run(
@@ -78,27 +79,17 @@ def _status(many: ManyPlans) -> int:
 
 
 def _print(many: ManyPlans, output: Path) -> None:
-    from rich.console import Console
-
-    console = Console(highlight=False)
+    out = console()
     every = many.found == len(many) and not many.interrupted
-    console.print(str(many), style="bold green" if every else "bold red")
+    out.print(str(many), style="bold green" if every else "bold red")
     if many.bad or many.without_order:
-        console.print(_table(many))
-    console.print(f"plans: {output}", soft_wrap=True)
+        out.print(_table(many))
+    out.print(f"plans: {shown(str(output))}", soft_wrap=True)
 
 
 def _table(many: ManyPlans) -> Table:
-    from rich import box
-    from rich.table import Table
-    from rich.text import Text
-
-    table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("scene")
-    table.add_column("why there is no order", overflow="fold")
+    made = table("scene", WHY, left=[WHY])
     rows = [*many.bad, *many.without_order]
     for answer in rows[:MOST_ROWS]:
-        table.add_row(Text(answer.name), Text(answer.error or answer.status))
-    if len(rows) > MOST_ROWS:
-        table.caption = f"the first {MOST_ROWS} of {len(rows)}; --json lists all"
-    return table
+        made.add_row(shown(answer.name), shown(answer.error or answer.status))
+    return cut(made, len(rows))

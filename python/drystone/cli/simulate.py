@@ -8,8 +8,10 @@ from typing import TYPE_CHECKING
 
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import load_scene, page_path, reporting_files
+from drystone.cli.output import console, facts
 from drystone.progress import RunProgress
 from drystone.simulation import Run, simulate
+from drystone.text import shown
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -59,33 +61,29 @@ def run(
 
 
 def _print(made: Run, output: Path | None) -> None:
-    from rich.console import Console
-
-    console = Console(highlight=False)
-    console.print(str(made), style=f"bold {'green' if made.finished else 'red'}", markup=False)
+    out = console()
+    out.print(str(made), style=f"bold {'green' if made.finished else 'red'}")
     if made.steps:
-        console.print(_facts(made))
+        out.print(_facts(made))
     if output is not None:
-        console.print(f"{'page' if page_path(output) else 'run'}: {output}")
+        out.print(f"{'page' if page_path(output) else 'run'}: {shown(str(output))}", soft_wrap=True)
 
 
 def _facts(made: Run) -> Table:
-    from rich.table import Table
-
-    facts = Table.grid(padding=(0, 2))
+    told = facts()
     mean = 1e6 * made.step_seconds.mean()
-    facts.add_row("a step", f"{mean:.3g} µs, {1e6 * made.solve_seconds.mean():.3g} µs in solves")
-    facts.add_row(
+    told.add_row("a step", f"{mean:.3g} µs, {1e6 * made.solve_seconds.mean():.3g} µs in solves")
+    told.add_row(
         "pivots",
         f"{made.pivots.sum()} ({made.major_cycles.sum()} major, {made.minor_cycles.sum()} minor) "
         f"in {made.solves.sum()} solves",
     )
     settled = int(made.motionless.all(axis=1).sum())
-    facts.add_row("steps in which nothing moved", f"{settled} of {made.steps}")
-    facts.add_row("deepest overlap", f"{made.penetration.max():.2g} m")
-    facts.add_row("largest error of friction", f"{made.friction_error.max():.2g} m/s")
+    told.add_row("steps in which nothing moved", f"{settled} of {made.steps}")
+    told.add_row("deepest overlap", f"{made.penetration.max():.2g} m")
+    told.add_row("largest error of friction", f"{made.friction_error.max():.2g} m/s")
     if made.formulation != "velocity":
-        facts.add_row("formulation", made.formulation)
-        facts.add_row("steps with collisions", f"{int((made.collisions > 0).sum())}")
-    facts.add_row("reuse", made.reuse)
-    return facts
+        told.add_row("formulation", made.formulation)
+        told.add_row("steps with collisions", f"{int((made.collisions > 0).sum())}")
+    told.add_row("reuse", made.reuse)
+    return told

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from drystone import _core, scenes, statics
 from drystone.paper.plain import plain_table
+from drystone.text import shown
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -132,6 +133,8 @@ def _least(
 
 def methods_table(found: Sequence[Measurement]) -> Table:
     """Without and with reuse side by side, a section for each structure."""
+    from rich.text import Text
+
     title = "Stability tests of one search by other methods, without and with reuse"
     table = plain_table(title, padding=(0, 1, 0, 0))
     table.caption = (
@@ -141,7 +144,7 @@ def methods_table(found: Sequence[Measurement]) -> Table:
     for heading in ("pivots", "reuse", "fewer", "ms", "reuse", "faster", "fail"):
         table.add_column(heading, justify="right", no_wrap=True)
     for label, rows in _by_structure(found).items():
-        table.add_row(f"[bold]{label}[/]")
+        table.add_row(Text(shown(label), style="bold"))
         for place, (method, pair) in enumerate(rows.items()):
             table.add_row(f"  {method}", *_cells(pair), end_section=place + 1 == len(rows))
     return table

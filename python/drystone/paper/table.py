@@ -15,6 +15,7 @@ from drystone.planning import plan
 
 if TYPE_CHECKING:
     from rich.table import Table
+    from rich.text import Text
 
     from drystone.scene import Scene
 
@@ -156,8 +157,11 @@ def write_csv(rows: list[Row], folder: Path) -> Path:
     return path
 
 
-def _beside(ours: int, printed: int | None) -> str:
-    return f"{ours}" if printed is None else f"{ours} [dim]({printed})[/]"
+def _beside(ours: int, printed: int | None) -> Text:
+    from rich.text import Text
+
+    told = Text(str(ours))
+    return told if printed is None else told.append(f" ({printed})", style="dim")
 
 
 def _ratio(row: Row, work: Callable[[Plan], float]) -> float:

@@ -110,6 +110,7 @@ def fitted(
         weight="bold",
         color=style.INK,
         va="top",
+        parse_math=False,
     )
     figure.text(
         0.15 / total_width,
@@ -118,6 +119,7 @@ def fitted(
         size=8,
         color=style.FAINT,
         va="bottom",
+        parse_math=False,
     )
     return Canvas(figure, axes, 72 * scale, box)
 

@@ -15,6 +15,7 @@ from drystone.body import Body
 from drystone.pictures import style
 from drystone.pictures.canvas import bounds
 from drystone.scene import Scene
+from drystone.text import shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -175,8 +176,9 @@ def _draw_node(
             axes.text(
                 x,
                 y,
-                body.name,
+                shown(body.name),
                 size=5,
+                parse_math=False,
                 ha="center",
                 va="center_baseline",
                 color=style.INK,

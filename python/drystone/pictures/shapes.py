@@ -10,6 +10,7 @@ from matplotlib.colors import to_rgb
 
 from drystone.pictures import style
 from drystone.pictures.canvas import Canvas, Outlined
+from drystone.text import shown
 
 
 def draw_fixed(canvas: Canvas, bodies: Sequence[Outlined]) -> None:
@@ -78,6 +79,7 @@ def draw_labels(
     drawn = [body for body in bodies if body.name in labels]
     if not drawn:
         return
+    labels = {name: shown(label) for name, label in labels.items()}
     # One small block should not cost all others their label: the size suits nine tenths of them.
     fits = [_fitting_size(canvas, body, labels[body.name]) for body in drawn]
     size = min(float(np.quantile(fits, 0.1)), 10.0)
@@ -93,6 +95,7 @@ def draw_labels(
                 ha="center",
                 va="center_baseline",
                 clip_on=True,
+                parse_math=False,
             )
 
 

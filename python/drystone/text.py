@@ -1,0 +1,28 @@
+"""Names in text for people."""
+
+from __future__ import annotations
+
+import unicodedata
+
+_TURNING = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
+"""Marks that change the direction of what follows: text around a name would turn with it."""
+
+_UNSHOWN = frozenset({"Cc", "Cs", "Zl", "Zp"})
+"""Control characters, halves of pairs, and ends of lines and paragraphs."""
+
+
+def shown(text: str) -> str:
+    r"""The text in one line, as it is but for what steers a terminal or a page: that as escapes.
+
+    >>> shown("the [bold] $x^2$ block"), shown("two\nlines")
+    ('the [bold] $x^2$ block', 'two\\nlines')
+    """
+    if text.isprintable():
+        return text
+    return "".join(_escaped(c) for c in text)
+
+
+def _escaped(c: str) -> str:
+    if c in _TURNING or unicodedata.category(c) in _UNSHOWN:
+        return c.encode("unicode_escape").decode("ascii")
+    return c
