@@ -71,8 +71,8 @@ def plan(
 
     With `clear_path` every block has to leave along a straight line without passing through those
     that remain, sliding along them allowed: in one of `directions` (any length), against gravity,
-    along the axes, or along or across one of its contacts. The first that is free is in
-    `Plan.directions`.
+    along the axes, or along or across one of its contacts; where these give no order, also square
+    to one or two faces of it and of what is near. The first that is free is in `Plan.directions`.
 
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found

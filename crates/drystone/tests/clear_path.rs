@@ -75,12 +75,33 @@ fn meets(scene: &Scene, body: usize, other: usize, [dx, dy]: [f64; 2]) -> bool {
     })
 }
 
-/// Against gravity, along the axes, along and across the contacts of a body.
+/// Against gravity, along the axes, along and across the contacts of a body, its faces and those near it.
 fn directions(scene: &Scene, body: usize) -> Vec<[f64; 2]> {
     let contacts = drystone::find_contacts(scene).unwrap().contacts;
     let own = contacts.iter().filter(|contact| contact.bodies.contains(&body));
-    let normals = own.map(|contact| contact.normal).chain([[0.0, 1.0, 0.0]]);
-    normals.flat_map(|[x, y, _]| [[x, y], [-x, -y], [-y, x], [y, -x]]).collect()
+    let normals = own.map(|contact| contact.normal).chain([[0.0, 1.0, 0.0]]).map(|[x, y, _]| [x, y]);
+    let near = (0..scene.bodies().len()).filter(|&other| is_near(scene, body, other));
+    let faces: Vec<[f64; 2]> = near.flat_map(|other| along_faces(scene, other)).collect();
+    normals.chain(faces).flat_map(|[x, y]| [[x, y], [-x, -y], [-y, x], [y, -x]]).collect()
+}
+
+/// Unit vectors along the sides of a body.
+fn along_faces(scene: &Scene, body: usize) -> Vec<[f64; 2]> {
+    let corners = scene.bodies()[body].vertices();
+    let next = corners.iter().cycle().skip(1);
+    let sides = corners.iter().zip(next).map(|([ax, ay], [bx, by])| [bx - ax, by - ay]);
+    sides.map(|[x, y]| [x / x.hypot(y), y / x.hypot(y)]).collect()
+}
+
+/// Whether another body is no farther away than a body is wide, by circles about the means of their corners.
+fn is_near(scene: &Scene, body: usize, other: usize) -> bool {
+    let circle = |index: usize| {
+        let corners = scene.bodies()[index].vertices();
+        let mean = [0, 1].map(|k| corners.iter().map(|corner| corner[k]).sum::<f64>() / corners.len() as f64);
+        (mean, corners.iter().map(|[x, y]| (x - mean[0]).hypot(y - mean[1])).fold(0.0, f64::max))
+    };
+    let (([ax, ay], radius), ([bx, by], other_radius)) = (circle(body), circle(other));
+    (ax - bx).hypot(ay - by) <= 3.0 * radius + other_radius
 }
 
 /// Whether there is an order, by all structures.

@@ -148,6 +148,11 @@ impl Polyhedron {
         &self.normals
     }
 
+    /// Area of each face, square metres.
+    pub fn areas(&self) -> impl Iterator<Item = f64> + '_ {
+        self.faces.iter().map(|face| newell(face, &self.vertices).length() / 2.0)
+    }
+
     /// Every edge once.
     pub fn edges(&self) -> &[Edge] {
         &self.edges

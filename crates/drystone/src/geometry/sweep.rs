@@ -16,7 +16,7 @@
 
 use super::{
     PoseInSpace, Solid,
-    vectors::{cross, dot, unit},
+    vectors::{cross, dot, length, minus, unit},
 };
 
 /// How far a direction may be from lying in a face, radians, to slide along it: far above the rounding of normals, and less
@@ -30,20 +30,30 @@ pub struct Piece {
     vertices: Vec<[f64; 3]>,
     /// Outward unit normals of the faces.
     normals: Vec<[f64; 3]>,
+    /// Areas of the faces, square metres; in the plane lengths.
+    areas: Vec<f64>,
     /// Unit directions of the edges.
     edges: Vec<[f64; 3]>,
+    /// All vertices are within the radius of the middle, metres.
+    middle: [f64; 3],
+    radius: f64,
 }
 
 impl Piece {
     /// A convex polygon, corners counter-clockwise.
     pub fn planar(corners: &[[f64; 2]]) -> Self {
         let next = corners.iter().cycle().skip(1);
-        let normals = corners.iter().zip(next).filter_map(|([ax, ay], [bx, by])| unit([by - ay, ax - bx, 0.0]));
-        Self {
-            vertices: corners.iter().map(|&[x, y]| [x, y, 0.0]).collect(),
-            normals: normals.collect(),
-            edges: vec![[0.0, 0.0, 1.0]],
-        }
+        let across = corners.iter().zip(next).map(|([ax, ay], [bx, by])| [by - ay, ax - bx, 0.0]);
+        let faces = across.filter_map(|across| Some((unit(across)?, dot(across, across).sqrt())));
+        let (normals, areas) = faces.unzip();
+        Self::new(corners.iter().map(|&[x, y]| [x, y, 0.0]).collect(), normals, areas, vec![[0.0, 0.0, 1.0]])
+    }
+
+    fn new(vertices: Vec<[f64; 3]>, normals: Vec<[f64; 3]>, areas: Vec<f64>, edges: Vec<[f64; 3]>) -> Self {
+        let count = vertices.len() as f64;
+        let middle = [0, 1, 2].map(|k| vertices.iter().map(|v| v[k]).sum::<f64>() / count);
+        let radius = vertices.iter().map(|&v| length(minus(v, middle))).fold(0.0, f64::max);
+        Self { vertices, normals, areas, edges, middle, radius }
     }
 
     /// The convex pieces of a solid.
@@ -53,18 +63,32 @@ impl Piece {
                 let [a, b] = piece.edges()[k].ends;
                 unit(pose.rotate(piece.vertices()[b] - piece.vertices()[a]).to_array())
             };
-            Self {
-                vertices: piece.vertices().iter().map(|&v| pose.transform(v).to_array()).collect(),
-                normals: piece.normals().iter().map(|&n| pose.rotate(n).to_array()).collect(),
-                edges: (0..piece.edges().len()).filter_map(edge).collect(),
-            }
+            Self::new(
+                piece.vertices().iter().map(|&v| pose.transform(v).to_array()).collect(),
+                piece.normals().iter().map(|&n| pose.rotate(n).to_array()).collect(),
+                piece.areas().collect(),
+                (0..piece.edges().len()).filter_map(edge).collect(),
+            )
         });
         pieces.collect()
+    }
+
+    /// Outward unit normals of the faces, each with its area in square metres; in the plane with its length.
+    pub fn faces(&self) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
+        self.normals.iter().copied().zip(self.areas.iter().copied())
+    }
+
+    /// Whether another piece is no farther away than this one is wide.
+    pub fn is_near(&self, other: &Self) -> bool {
+        length(minus(self.middle, other.middle)) <= 3.0 * self.radius + other.radius
     }
 
     /// Whether this piece, moved along a unit direction as far as one likes, would enter another that stays. They may touch
     /// on the way, and be as deep in each other as the tolerance, metres.
     pub fn is_stopped_by(&self, other: &Self, direction: [f64; 3], tolerance: f64) -> bool {
+        if self.is_far_past(other, direction) {
+            return false;
+        }
         let parts = |n: [f64; 3]| dot(n, direction) <= SLIDING && self.gap(other, n) >= -tolerance;
         let back = direction.map(|d| -d);
         let sideways = self.edges.iter().chain(&other.edges).filter_map(|&edge| unit(cross(edge, direction)));
@@ -72,6 +96,13 @@ impl Piece {
         let both = sideways.chain(edges).flat_map(|n| [n, n.map(|x| -x)]);
         let faces = self.normals.iter().copied().chain(other.normals.iter().map(|n| n.map(|x| -x)));
         ![back].into_iter().chain(both).chain(faces).any(parts)
+    }
+
+    /// Whether balls around both pieces show that they never meet: the other is behind, or far beside the way.
+    fn is_far_past(&self, other: &Self, direction: [f64; 3]) -> bool {
+        let (there, apart) = (minus(other.middle, self.middle), self.radius + other.radius);
+        let ahead = dot(there, direction);
+        ahead < -apart || dot(there, there) - ahead * ahead > apart * apart
     }
 
     /// How far the other piece is ahead along a unit vector, metres.
@@ -95,7 +126,7 @@ mod tests {
         let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let corner = |mask: usize| [0, 1, 2].map(|k| if mask >> k & 1 == 1 { high[k] } else { low[k] });
         let normals = axes.iter().flat_map(|&n| [n, n.map(|x: f64| -x)]).collect();
-        Piece { vertices: (0..8).map(corner).collect(), normals, edges: axes.to_vec() }
+        Piece::new((0..8).map(corner).collect(), normals, vec![1.0; 6], axes.to_vec())
     }
 
     #[test]

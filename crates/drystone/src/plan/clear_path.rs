@@ -9,15 +9,13 @@
 //! *The trap.* If blocks Q that are there leave a block X no way in, every structure with all of Q and without X is lost, for
 //! what grows from it has all of Q as well.
 
+use super::directions::{along_faces, at_contacts};
 use crate::contact::tolerance_of;
 use crate::error::SceneError;
 use crate::formulate::{Assemble, Assembly, BlockSet};
-use crate::geometry::{Piece, cross, dot, unit};
+use crate::geometry::{Piece, unit};
 use crate::scene::SceneOf;
 use std::cell::OnceCell;
-
-/// Two directions whose cosine is this close to one are the same: the angle is 1e-6.
-const SAME: f64 = 1e-12;
 
 /// Why a block cannot leave.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,10 +44,12 @@ pub(super) struct Paths<'a> {
     directions: Vec<Vec<[f64; 3]>>,
     /// For each block and direction, once it is asked for.
     known: Vec<Vec<OnceCell<InTheWay>>>,
+    faces_tried: bool,
 }
 
 impl<'a> Paths<'a> {
-    /// Takes a scene's assembly, and directions to try beside those along the axes and the block's contacts.
+    /// Takes a scene's assembly, and directions to try beside those along the axes and the block's contacts. Those along
+    /// faces come with [`Paths::try_faces`].
     ///
     /// # Errors
     /// [`SceneError::BadParameter`] for a direction that is zero or not finite.
@@ -69,14 +69,29 @@ impl<'a> Paths<'a> {
                 expected: "finite vectors that are not zero".into(),
             })?);
         }
-        let directions: Vec<Vec<[f64; 3]>> = candidates(assembly, &given);
+        let directions = at_contacts(assembly, &given);
         Ok(Self {
             assembly,
             pieces: scene.bodies().iter().map(S::pieces).collect(),
             tolerances: scene.bodies().iter().map(|body| tolerance_of(scene, body)).collect(),
             known: directions.iter().map(|list| vec![OnceCell::new(); list.len()]).collect(),
             directions,
+            faces_tried: false,
         })
+    }
+
+    /// Adds the directions along the faces of each block and of those near it, behind the others. Returns false if that was
+    /// done before.
+    pub fn try_faces(&mut self) -> bool {
+        if std::mem::replace(&mut self.faces_tried, true) {
+            return false;
+        }
+        for block in 0..self.blocks() {
+            let list = &mut self.directions[block];
+            along_faces(list, &self.pieces, self.assembly.body_index(block), self.assembly.in_plane());
+            self.known[block].resize(list.len(), OnceCell::new());
+        }
+        true
     }
 
     /// Number of movable blocks.
@@ -162,42 +177,4 @@ impl<'a> Paths<'a> {
             }
         }
     }
-}
-
-/// For each block the directions to try: those given, against gravity, along the axes, along and across its contacts.
-fn candidates(assembly: &Assembly, given: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
-    let up = unit(assembly.gravity().map(|g| -g));
-    let axes: &[[f64; 3]] = match assembly.in_plane() {
-        true => &[[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
-        false => &[[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-    };
-    let both = |way: [f64; 3]| [way, way.map(|x| -x)];
-    let of_all = given.iter().copied().chain(up).chain(axes.iter().copied().flat_map(both));
-    let of_all = of_all.fold(Vec::new(), with_new);
-    let mut directions = vec![of_all; assembly.blocks()];
-    for generator in assembly.generators() {
-        let normal = assembly.contacts()[generator.contact].normal;
-        let ways = across(assembly, normal).into_iter().chain([normal]).flat_map(both);
-        for wrench in &generator.wrenches {
-            let list = std::mem::take(&mut directions[wrench.block]);
-            directions[wrench.block] = ways.clone().fold(list, with_new);
-        }
-    }
-    directions
-}
-
-/// Unit vectors square to a contact's normal: in the plane one, in space one that is level and one that is steepest.
-fn across(assembly: &Assembly, normal: [f64; 3]) -> Vec<[f64; 3]> {
-    if assembly.in_plane() {
-        return vec![[-normal[1], normal[0], 0.0]];
-    }
-    let level = unit(cross(normal, assembly.gravity())).or_else(|| unit(cross(normal, [1.0, 0.0, 0.0])));
-    level.into_iter().flat_map(|level| [level, cross(normal, level)]).collect()
-}
-
-fn with_new(mut list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
-    if !list.iter().any(|&known| dot(known, direction) > 1.0 - SAME) {
-        list.push(direction);
-    }
-    list
 }

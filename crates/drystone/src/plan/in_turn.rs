@@ -67,6 +67,9 @@ impl<'a> InTurn<'a> {
         let ended = take_turn(&mut first, test, clock, turn);
         let ended = ended.unwrap_or_else(|| self.go_on_in_turn(&mut first, test, clock));
         (self.best, self.records) = (take(&mut first.best), take(&mut first.records));
+        if matches!(ended, Ok(Outcome::NoOrder)) {
+            first.take_down(test);
+        }
         self.shortcuts += memory.shortcuts();
         ended
     }

@@ -12,6 +12,7 @@ mod candidates;
 mod clear_path;
 mod collapse;
 mod dead_end;
+mod directions;
 mod forces;
 mod graph;
 mod grips;

@@ -49,7 +49,7 @@ pub struct Conditions {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ClearPath {
     /// Directions to try first, of any length. The others are: against gravity, along the axes, and along and across the
-    /// block's contacts.
+    /// block's contacts; where these give no order, also those square to one or two faces of the block and of what is near.
     pub directions: Vec<[f64; 3]>,
 }
 

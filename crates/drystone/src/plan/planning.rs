@@ -143,9 +143,41 @@ pub fn plan_with_under<S: Assemble>(
         }
         .into());
     }
-    let clear = conditions.clear_path.as_ref();
-    let paths = clear.map(|clear| Paths::new(scene, assembly, &clear.directions)).transpose()?;
-    search_under(assembly, test, conditions.hold, paths.as_ref(), limits, monitor)
+    let Some(clear) = &conditions.clear_path else {
+        return search_under(assembly, test, conditions.hold, None, limits, monitor);
+    };
+    search_ways_out(assembly, test, conditions.hold, Paths::new(scene, assembly, &clear.directions)?, limits, monitor)
+}
+
+/// Searches with the directions at contacts, and where there is no order with them, again with those along faces, which
+/// are many more.
+fn search_ways_out(
+    assembly: &Assembly,
+    test: &mut dyn StabilityTest,
+    hands: usize,
+    mut paths: Paths<'_>,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    if !paths.locked().is_empty() {
+        paths.try_faces();
+    }
+    let first = search_under(assembly, test, hands, Some(&paths), limits, monitor)?;
+    let blocked = !first.blocked.is_empty() && matches!(first.outcome, Outcome::NoOrder | Outcome::Undecided);
+    if !blocked || !paths.try_faces() {
+        return Ok(first);
+    }
+    let left = Limits {
+        tests: limits.tests.map(|most| most.saturating_sub(first.records.len())),
+        time: limits.time.map(|most| most.saturating_sub(first.total)),
+        ..limits
+    };
+    let mut second = search_under(assembly, test, hands, Some(&paths), left, monitor)?;
+    second.records.splice(..0, first.records);
+    second.shortcuts += first.shortcuts;
+    second.total += first.total;
+    second.whole_time += first.whole_time;
+    Ok(second)
 }
 
 /// What a search has found, blocks by their numbers among the movable ones.

@@ -208,6 +208,13 @@ impl<'a> Search<'a> {
         self.step_back(Some(failed), test)
     }
 
+    /// Takes off what is still there, so that the test is as it was before the search.
+    pub fn take_down(&mut self, test: &mut dyn StabilityTest) {
+        if !self.placed.is_empty() {
+            self.retreat(0, test);
+        }
+    }
+
     /// Takes all but the first blocks off again, and says which of them was the first to come.
     fn retreat(&mut self, keep: usize, test: &mut dyn StabilityTest) -> usize {
         let gone = self.placed.split_off(keep);
