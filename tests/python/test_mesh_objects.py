@@ -147,3 +147,14 @@ def test_split_is_for_mesh_files(tmp_path: Path) -> None:
         load(tmp_path, split="none")
     with pytest.raises(MeshError, match="split must be one of objects, groups, none"):
         load(tmp_path / "wall.obj", split="shells")
+
+
+def test_what_is_done_to_many_bodies_is_said_once(tmp_path: Path) -> None:
+    stones = {f"stone {k}": (0.0, float(k)) for k in range(6)}
+    doubled = ""
+    for line in obj(stones).splitlines():
+        doubled += line + "\n" + (line + "\n" if line.startswith("f ") else "")
+    (tmp_path / "wall.obj").write_text(doubled)
+    assert load(tmp_path / "wall.obj").messages == [
+        "stone 0 and 5 others: left out 12 duplicate faces"
+    ]

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 DENSITY = 1000.0
 """kg/m^3, where a file gives none."""
 
+MANY = 4
+"""What was done to so many bodies is said once."""
+
 GROUND_MARGIN = 0.5
 """Ground reaches this share of the bodies' extent beyond them on every side, and as deep."""
 
@@ -130,6 +133,22 @@ class Collected:
     def say(self, about: str, messages: Iterable[str]) -> None:
         """Note what was done to a body."""
         self.messages += [f"{about}: {message}" for message in messages]
+
+    def grouped(self) -> list[str]:
+        """The messages; what was done to many bodies in one line, where the first of them is."""
+        about: dict[str, list[str]] = {}
+        for message in self.messages:
+            name, _, text = message.partition(": ")
+            about.setdefault(text or message, []).append(name)
+        lines = []
+        for message in self.messages:
+            name, _, text = message.partition(": ")
+            names = about.get(text, [])
+            if len(names) < MANY:
+                lines.append(message)
+            elif name == names[0]:
+                lines.append(f"{name} and {len(names) - 1} others: {text}")
+        return lines
 
     def fix(self, names: Iterable[str]) -> None:
         """Fix bodies by name; FormatError for a name that is not there."""

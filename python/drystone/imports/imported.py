@@ -164,7 +164,7 @@ def load(
             f"the scene lacks {count} of the file's bodies: {', '.join(collected.lacking[:10])}"
         )
     scene = _scene(collected, friction, density, gravity, tolerance)
-    return Imported(kind, scene, collected.bodies, collected.left_out, collected.messages)
+    return Imported(kind, scene, collected.bodies, collected.left_out, collected.grouped())
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,8 +36,6 @@ class Flattened:
     """A mesh with plane faces."""
 
     vertices: NDArray[np.float64]
-    moved: float
-    """The farthest that a vertex moved, in the unit of length."""
     uneven: float
     """The farthest that one is still from a plane of its faces."""
 
@@ -76,7 +74,7 @@ def flattened(
             break
         last = uneven
     distance = float(np.linalg.norm(moved - vertices, axis=1).max())
-    return Flattened(moved, distance, uneven) if distance <= tolerance else None
+    return Flattened(moved, uneven) if distance <= tolerance else None
 
 
 def _faces(

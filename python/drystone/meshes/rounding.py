@@ -95,10 +95,7 @@ def evened(surface: Surface, exact: Exactness, tight: float, most_planes: int) -
     if flat is None:
         return tight
     surface.vertices = flat.vertices
-    surface.messages.append(
-        f"{exact.reason}: faces that are plane within that were made plane, which moved its "
-        f"vertices by up to {flat.moved / exact.tolerance:.0%} of what that allows"
-    )
+    surface.messages.append(f"{exact.reason}: faces that are plane within that were made plane")
     return max(tight, 4 * flat.uneven)
 
 
