@@ -82,7 +82,13 @@ fn directions(scene: &Scene, body: usize) -> Vec<[f64; 2]> {
     let normals = own.map(|contact| contact.normal).chain([[0.0, 1.0, 0.0]]).map(|[x, y, _]| [x, y]);
     let near = (0..scene.bodies().len()).filter(|&other| is_near(scene, body, other));
     let faces: Vec<[f64; 2]> = near.flat_map(|other| along_faces(scene, other)).collect();
-    normals.chain(faces).flat_map(|[x, y]| [[x, y], [-x, -y], [-y, x], [y, -x]]).collect()
+    let mut ways: Vec<[f64; 2]> = Vec::new();
+    for [x, y] in normals.chain(faces).flat_map(|[x, y]| [[x, y], [-x, -y], [-y, x], [y, -x]]) {
+        if !ways.iter().any(|[a, b]| (a - x).hypot(b - y) < 1e-9) {
+            ways.push([x, y]);
+        }
+    }
+    ways
 }
 
 /// Unit vectors along the sides of a body.
