@@ -218,6 +218,34 @@ def test_round_shapes_weigh_what_they_do() -> None:
         assert weight.inertia == pytest.approx(weighed.inertia, rel=3e-3, abs=1e-6)
 
 
+def test_overlapping_shells_are_pieces(tmp_path: Path) -> None:
+    """As V-HACD writes them: two boxes that overlap, and a third with a dent within 5 %."""
+    boxes = [trimesh.creation.box((1, 1, 1)) for _ in range(3)]
+    for number, box in enumerate(boxes):
+        box.apply_translation((0.9 * number, 0, 0))
+    dented = boxes[2].subdivide()
+    middle = np.linalg.norm(dented.vertices - (1.8, 0, 0.5), axis=1).argmin()
+    dented.vertices[middle] -= (0, 0, 0.1)
+    shells = trimesh.util.concatenate([*boxes[:2], dented])
+    shells.export(tmp_path / "shells.obj")
+    mesh = '<collision><geometry><mesh filename="shells.obj"/></geometry></collision>'
+    link = f'<link name="a"><inertial><mass value="3"/></inertial>{mesh}</link>'
+    imported = urdf(tmp_path, link)
+    (body,) = imported.bodies
+    assert (len(body.pieces), body.mass, body.volume) == (3, 3, pytest.approx(3))
+    assert "3 nearly convex shells" in imported.messages[0]
+    assert ds.check(urdf(tmp_path, link, ground=True).scene).stable
+    # A hull of too many corners is left out, with what to do.
+    trimesh.creation.icosphere(5).export(tmp_path / "ball.obj")
+    imported = mjcf(
+        tmp_path,
+        '<geom type="box" size="1 1 1"/><body name="b"><geom type="mesh" mesh="ball"/></body>',
+        '<asset><mesh file="ball.obj"/></asset>',
+    )
+    assert "simplified with simplify" in imported.left_out[0].why
+    assert imported.scene.names == ["geom 1"]
+
+
 # Files of other tools where a scene is wanted
 
 

@@ -15,8 +15,10 @@ from drystone.imports.fields import read_json
 from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
 from drystone.imports.rigid import JOINTS
-from drystone.meshes import MOST_PIECES, MeshError, Part, read_part
-from drystone.meshes.reading import ENDINGS
+from drystone.imports.shells import convex_shells, scaled
+from drystone.meshes import MOST_PIECES, MeshError, Part
+from drystone.meshes.part import part_from
+from drystone.meshes.reading import ENDINGS, read_triangles
 
 if TYPE_CHECKING:
     from drystone.scene import Scene
@@ -154,16 +156,17 @@ def load(
     collected.fix(fixed)
     if isinstance(density, Mapping):
         collected.set_densities(density)
-        density = None
+    elif density is not None:
+        collected.set_densities({body.name: density for body in collected.bodies})
     if isinstance(friction, Mapping):
         collected.set_frictions(friction)
         friction = FRICTION
+    scene = _scene(collected, friction, gravity, tolerance, kind in ("MJCF", "URDF"))
     if collected.lacking:
         count = len(collected.lacking)
         collected.messages.append(
             f"the scene lacks {count} of the file's bodies: {', '.join(collected.lacking[:10])}"
         )
-    scene = _scene(collected, friction, density, gravity, tolerance)
     return Imported(kind, scene, collected.bodies, collected.left_out, collected.grouped())
 
 
@@ -224,8 +227,16 @@ def _read_xml(path: Path, collected: Collected, taking: Taking) -> str:
     if root.tag == "robot":
 
         def read_mesh(file: Path, scale: tuple[float, float, float]) -> Part:
+            read = read_triangles(file)
+            shells = None if taking.hull else convex_shells(scaled(read, scale))
+            if shells is not None:
+                said = f"{file.name}: {len(shells)} nearly convex shells, each taken as its hull"
+                return Part(read.name, shells, 0.0, [said])
             tolerance = collected.mesh_tolerance
-            return read_part(file, scale=scale, tolerance=tolerance, **taking.for_meshes())
+            try:
+                return part_from(read, scale, tolerance=tolerance, **taking.for_meshes())
+            except MeshError as error:
+                raise MeshError(f"{file}: {error}") from None
 
         urdf.read(root, path, collected, read_mesh, taking.joints, taking.massless_are_fixed)
         return "URDF"
@@ -235,10 +246,11 @@ def _read_xml(path: Path, collected: Collected, taking: Taking) -> str:
 def _scene(
     collected: Collected,
     friction: float,
-    density: float | None,
     gravity: Sequence[float] | None,
     tolerance: float | None,
+    may_lack: bool,
 ) -> Scene:
+    """The scene of all bodies; one that cannot be taken is an error, unless it `may_lack` it."""
     from drystone.scene import Scene
 
     if tolerance is None:
@@ -246,12 +258,14 @@ def _scene(
     if gravity is None:
         gravity = collected.gravity or (0.0, 0.0, -9.81)
     scene = Scene(3, gravity, friction, contact_tolerance=tolerance)
-    for body in collected.bodies:
-        if density is not None:
-            body = body.with_density(density)
+    for body in list(collected.bodies):
         try:
             _add(scene, body, None if body.weight is None else body.weight.mass)
         except SceneError as error:
+            if may_lack:
+                collected.lack(f"body {body.name}", str(error))
+                collected.bodies.remove(body)
+                continue
             if not (body.weight is None and TWICE in str(error)):
                 raise
             # Pieces of a mesh were found to fill its volume: they overlap by rounding only.

@@ -16,6 +16,7 @@ from drystone.imports.pose import Pose
 from drystone.imports.weight import Weight, of_pieces, of_triangles
 from drystone.meshes import MeshError, part_of
 from drystone.meshes.hull import hull_corners, hull_triangles, hull_volume
+from drystone.meshes.part import MOST_CORNERS
 from drystone.meshes.reading import read_triangles
 
 if TYPE_CHECKING:
@@ -99,6 +100,11 @@ class Meshes:
         hull = hull_corners(points)
         if self._simplify is not None:
             hull = part_of("hull", *hull_triangles(hull), True, 1, self._simplify).pieces[0]
+        if len(hull) > MOST_CORNERS:
+            raise MeshError(
+                f"its convex hull has {len(hull)} corners, more than {MOST_CORNERS}: let it be "
+                "simplified with simplify"
+            )
         if triangles is None or mesh.get("inertia") == "convex":
             return Shape(hull, of_pieces([hull]))
         corners = points[triangles]

@@ -202,12 +202,11 @@ class _Robot:
         return Pose(np.array(position), from_euler("xyz", angles))
 
     def _file(self, name: str) -> Path:
-        """A mesh's path; `package://name/...` is looked for beside the file and above it."""
+        """A mesh's path, looked for beside the file and in the folders above it: tools see names
+        from a folder of their own, and `package://name/...` from a package's."""
         scheme, found, rest = name.partition("://")
-        if not found or scheme == "file":
-            return self.path.parent / (rest if found else name)
+        insides = [rest.partition("/")[2], rest] if found and scheme != "file" else [rest or name]
         folders = [self.path.parent, *self.path.resolve().parents]
-        insides = (rest.partition("/")[2], rest)
         places = (folder / inside for folder in folders for inside in insides if inside)
         file = next((place for place in places if place.exists()), None)
         if file is None:
