@@ -153,7 +153,8 @@ fn rod(friction: f64) -> (World, [f64; 2]) {
 
 /// Acceleration of the corner along the normal by a unit normal force and the friction that it brings, 1/kg.
 fn own_acceleration(world: &World, [rx, ry]: [f64; 2], friction: f64) -> f64 {
-    let body = &world.scene().bodies()[1];
+    let scene = world.scene();
+    let body = &scene.bodies()[1];
     // It slides to the left: the force is (mu, 1).
     let moment = rx - ry * friction;
     1.0 / body.mass() + rx * moment / body.inertia()

@@ -107,7 +107,8 @@ fn a_free_body_keeps_energy_and_momentum() {
 
 /// Of the first body: `R I R' w` for a cuboid, by its sides.
 fn angular_momentum(world: &WorldInSpace, density: f64) -> [f64; 3] {
-    let body = &world.scene().bodies()[0];
+    let scene = world.scene();
+    let body = &scene.bodies()[0];
     let [a, b, c] = body.box_size.unwrap();
     let mass = density * a * b * c;
     let inertia = [b * b + c * c, a * a + c * c, a * a + b * b].map(|square| mass * square / 12.0);
@@ -165,7 +166,7 @@ fn what_stands_is_still() {
             let record = world.step().unwrap();
             assert_eq!(record.counts.pivots, 0, "{record:?}");
         }
-        assert_eq!(world.scene(), &start);
+        assert_eq!(*world.scene(), start);
     }
 }
 

@@ -74,8 +74,8 @@ fn full_reuse_loses_in_no_segment() {
 #[test]
 fn the_scenes_move_in_the_segments_that_the_paper_describes() {
     let moving = |world: &World| -> Vec<String> {
-        let bodies = world.scene().bodies().iter().zip(world.motionless());
-        bodies.filter(|(_, still)| !**still).map(|(body, _)| body.name.clone()).collect()
+        let bodies = world.names().zip(world.motionless());
+        bodies.filter(|(_, still)| !**still).map(|(name, _)| name.to_owned()).collect()
     };
     let segments = |scene: Scene, steps: usize| {
         let mut world = world(&scene, Reuse::Full);

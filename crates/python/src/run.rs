@@ -2,7 +2,6 @@
 
 use crate::arrays::{read_only, vector};
 use drystone::{
-    Body,
     geometry::Numbers,
     simulate::{ContactImpulse, Ending, Inconsistent, Moving, Run as CoreRun, StepRecord as CoreRecord},
 };
@@ -62,9 +61,9 @@ pub struct Run {
 }
 
 impl StepRecord {
-    pub fn new<S: Moving>(py: Python<'_>, record: CoreRecord, bodies: &[Body<S>]) -> Self {
+    pub fn new(py: Python<'_>, record: CoreRecord, names: &[&str]) -> Self {
         let place = |Inconsistent { contact, .. }: Inconsistent| {
-            let [a, b] = contact.bodies.map(|body| bodies[body].name.clone());
+            let [a, b] = contact.bodies.map(|body| names[body].to_owned());
             (a, b, contact.feature.to_string())
         };
         Self {

@@ -2,10 +2,10 @@
 
 use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::Watch};
 use drystone::{
-    Body,
     check::{Route, check_while},
     formulate::Assembly,
-    simulate::{ContactImpulse, Moving},
+    geometry::Numbers,
+    simulate::ContactImpulse,
 };
 use numpy::PyArray2;
 use pyo3::{
@@ -45,11 +45,8 @@ pub struct Verdict {
 
 impl ContactForce {
     /// The mean force of a step of length `dt`.
-    pub fn of_impulse<S: Moving>(bodies: &[Body<S>], contact: &ContactImpulse<S::Vector>, dt: f64) -> Self
-    where
-        S::Vector: Into<Coordinates>,
-    {
-        let [a, b] = contact.id.bodies.map(|body| bodies[body].name.clone());
+    pub fn of_impulse<V: Numbers + Into<Coordinates>>(names: &[&str], contact: &ContactImpulse<V>, dt: f64) -> Self {
+        let [a, b] = contact.id.bodies.map(|body| names[body].to_owned());
         let mut force = contact.impulse;
         force.as_mut().iter_mut().for_each(|p| *p /= dt);
         Self {

@@ -112,7 +112,7 @@ impl World {
     fn step(&self, py: Python<'_>) -> PyResult<StepRecord> {
         with_world!(&mut *self.core.write()?, world => {
             let record = py.detach(|| world.step()).map_err(|failure| step_error(&failure))?;
-            Ok(StepRecord::new(py, record, world.scene().bodies()))
+            Ok(StepRecord::new(py, record, &world.names().collect::<Vec<_>>()))
         })
     }
 
@@ -124,14 +124,14 @@ impl World {
             let run = py.detach(|| core::run(world, steps, forces, |made| watch.go_on(made, steps)));
             match watch.error {
                 Some(error) => Err(error),
-                None => Run::new(py, &run, world.options().dt, world.scene().bodies().len()),
+                None => Run::new(py, &run, world.options().dt, world.names().count()),
             }
         })
     }
 
     #[getter]
     fn scene(&self) -> PyResult<Scene> {
-        Ok(Scene::of(with_world!(&*self.core.read()?, world => world.scene().clone().into())))
+        Ok(Scene::of(with_world!(&*self.core.read()?, world => world.scene().into_owned().into())))
     }
 
     #[getter]
@@ -144,10 +144,7 @@ impl World {
 
     #[getter]
     fn names(&self) -> PyResult<Vec<String>> {
-        let names = with_world!(&*self.core.read()?, world => {
-            world.scene().bodies().iter().map(|body| body.name.clone()).collect()
-        });
-        Ok(names)
+        Ok(with_world!(&*self.core.read()?, world => world.names().map(str::to_owned).collect()))
     }
 
     #[getter]
@@ -200,7 +197,8 @@ impl World {
         let forces = with_world!(&*self.core.read()?, world => {
             let dt = world.options().dt;
             let bearing = world.contact_impulses().into_iter().filter(|contact| contact.along_normal > 0.0);
-            bearing.map(|contact| ContactForce::of_impulse(world.scene().bodies(), &contact, dt)).collect()
+            let names: Vec<&str> = world.names().collect();
+            bearing.map(|contact| ContactForce::of_impulse(&names, &contact, dt)).collect()
         });
         Ok(forces)
     }

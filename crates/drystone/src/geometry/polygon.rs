@@ -177,6 +177,10 @@ impl Shape for Polygon {
         pose.position
     }
 
+    fn placed(pose: Pose, position: [f64; 2]) -> Pose {
+        Pose { position, ..pose }
+    }
+
     fn bounds(&self, pose: &Pose) -> [[f64; 2]; 2] {
         let (place, turn) = (Vector::from_array(pose.position), pose.turn());
         let corners = || self.vertices.iter().map(|&v| turn(v) + place);

@@ -53,6 +53,9 @@ pub trait Shape: Clone + Debug + PartialEq {
     /// Where the frame's origin, the centre of mass, is in the world, metres.
     fn place(pose: &Self::Pose) -> Self::Vector;
 
+    /// The pose with that place instead of its own.
+    fn placed(pose: Self::Pose, place: Self::Vector) -> Self::Pose;
+
     /// Lower and upper corner of the box around the shape where its frame stands, world coordinates, metres.
     fn bounds(&self, pose: &Self::Pose) -> [Self::Vector; 2];
 }

@@ -107,6 +107,10 @@ impl Shape for Solid {
         pose.position
     }
 
+    fn placed(pose: PoseInSpace, position: [f64; 3]) -> PoseInSpace {
+        PoseInSpace { position, ..pose }
+    }
+
     fn bounds(&self, pose: &PoseInSpace) -> [[f64; 3]; 2] {
         let (place, [x, y, z]) = (Vector3::from_array(pose.position), pose.axes());
         let corners = || self.vertices().map(|v| v.x * x + v.y * y + v.z * z + place);

@@ -26,6 +26,7 @@ mod integrate;
 mod islands;
 mod motionless;
 mod moving;
+mod origin;
 mod project;
 mod pushes;
 mod reuse;

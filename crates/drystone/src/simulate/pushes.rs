@@ -67,7 +67,7 @@ impl<S: Moving> World<S> {
             self.movable(name, quantity, at.as_ref())?;
             let mut force = S::Vector::default();
             force.as_mut().copy_from_slice(split::<S>(&wrench_there).0);
-            let levers = S::levers(&S::outline(body), minus_of(at, &S::place(&body.pose)));
+            let levers = S::levers(&S::outline(body), minus_of(minus_of(at, &self.origin), &S::place(&body.pose)));
             let moment = wrench::<S>(&levers, &force, 1.0);
             let axes = force.as_ref().len();
             total.as_mut()[axes..].iter_mut().zip(&moment.as_ref()[axes..]).for_each(|(sum, m)| *sum += m);

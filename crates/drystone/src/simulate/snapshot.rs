@@ -36,8 +36,9 @@ fn seal<S: Moving>() -> Seal {
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "")]
 struct State<S: Moving> {
-    /// As JSON: the bodies where they are, their shapes, masses and friction, gravity, the tolerance.
+    /// As JSON: the bodies where they are, seen from the world's origin, their shapes, masses and friction, gravity, the tolerance.
     scene: String,
+    origin: S::Vector,
     dt: f64,
     reuse: Reuse,
     restitution: f64,
@@ -84,6 +85,7 @@ impl<S: Moving> World<S> {
     fn state(&self) -> State<S> {
         State {
             scene: S::to_json(&self.scene),
+            origin: self.origin,
             dt: self.options.dt,
             reuse: self.options.reuse,
             restitution: self.options.restitution,
@@ -123,11 +125,11 @@ impl<S: Moving> World<S> {
     /// [`SimulationError::Snapshot`] for anything that is not one, whole and undamaged.
     pub fn restore(bytes: &[u8]) -> Result<Self, SimulationError> {
         let saved: Saved<S> = seal::<S>().open(bytes).map_err(fault)?;
-        let State { scene, dt, reuse, restitution, formulation, cones, .. } = &saved.state;
+        let State { scene, origin, dt, reuse, restitution, formulation, cones, .. } = &saved.state;
         let scene = io::from_json(scene, "its scene").and_then(S::of_any).map_err(fault)?;
         let options =
             Options { dt: *dt, reuse: *reuse, restitution: *restitution, formulation: *formulation, cones: *cones };
-        let mut world = Self::resting(scene, options).map_err(fault)?;
+        let mut world = Self::resting(scene, *origin, options).map_err(fault)?;
         if !saved.fits(world.velocities.len()) {
             return Err(fault(UNFIT));
         }
@@ -169,5 +171,6 @@ impl<S: Moving> Saved<S> {
             && [self.sliding.len(), self.impulses.len()] == [points; 2]
             && self.before.iter().flatten().all(between)
             && velocities.iter().chain(forces).all(finite)
+            && self.state.origin.as_ref().iter().all(|x| x.is_finite())
     }
 }

@@ -3,7 +3,8 @@
 use super::{
     error::SimulationError,
     formulation::{Formulation, Law},
-    moving::{Moving, inverse_mass, masses},
+    moving::{Moving, inverse_mass, is_zero, masses},
+    origin::{in_scene, moved, origin_of, place_in_scene},
     reuse::{Reuse, Route},
     settled::Settled,
     sliding::Carried,
@@ -17,7 +18,7 @@ use crate::{
     geometry::{Numbers, Polygon, norm, plus_times, product},
     scene::SceneOf,
 };
-use std::fmt;
+use std::{borrow::Cow, fmt};
 
 /// How a world makes its steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,7 +58,10 @@ impl Default for Options {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct World<S: Moving = Polygon> {
+    /// The bodies where they are now, seen from [`Self::origin`].
     pub(super) scene: SceneOf<S>,
+    /// See `origin.rs`.
+    pub(super) origin: S::Vector,
     pub(super) options: Options,
     pub(super) law: &'static dyn Law<S>,
     /// Of every body, its turning about its own axes.
@@ -124,12 +128,15 @@ impl<S: Moving> World<S> {
     /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`], [`SimulationError::NoSuchLaw`];
     /// [`SceneError::Overlap`] if blocks overlap, [`SceneError::TooFewFacets`].
     pub fn new(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
+        let origin = origin_of(&scene);
+        let scene = moved(scene, -1.0, &origin);
         S::contacts(&scene)?;
-        Self::resting(scene, options)
+        Self::resting(scene, origin, options)
     }
 
-    /// The same without a look at overlaps: a step may end with one, and a snapshot may be taken there.
-    pub(super) fn resting(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
+    /// The same, of a scene seen from its origin, without a look at overlaps: a step may end with one, and a snapshot may be taken
+    /// there.
+    pub(super) fn resting(scene: SceneOf<S>, origin: S::Vector, options: Options) -> Result<Self, SimulationError> {
         let Options { dt, restitution, formulation, cones, .. } = options;
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SimulationError::TimeStep { value: dt });
@@ -155,6 +162,7 @@ impl<S: Moving> World<S> {
             stood: None,
             settled: None,
             options,
+            origin,
             scene,
         };
         world.weigh();
@@ -166,8 +174,16 @@ impl<S: Moving> World<S> {
     }
 
     /// The bodies where they are now.
-    pub fn scene(&self) -> &SceneOf<S> {
-        &self.scene
+    pub fn scene(&self) -> Cow<'_, SceneOf<S>> {
+        if is_zero(&self.origin) {
+            return Cow::Borrowed(&self.scene);
+        }
+        Cow::Owned(moved(self.scene.clone(), 1.0, &self.origin))
+    }
+
+    /// Names of the bodies, in their order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.scene.bodies().iter().map(|body| body.name.as_str())
     }
 
     /// How steps are made.
@@ -183,7 +199,7 @@ impl<S: Moving> World<S> {
 
     /// Place of every body: the centre of mass, metres, and the angle, radians; in space a unit quaternion (w, x, y, z).
     pub fn poses(&self) -> impl Iterator<Item = S::Place> {
-        self.scene.bodies().iter().map(|body| S::place_of(&body.pose))
+        self.scene.bodies().iter().map(|body| place_in_scene::<S>(S::place_of(&body.pose), &self.origin))
     }
 
     /// Whether each body kept its place in the last step; fixed ones always do.
@@ -203,7 +219,7 @@ impl<S: Moving> World<S> {
         let of = |(body, velocity): (&crate::scene::Body<S>, &S::Velocity)| {
             let masses = masses(body);
             let kinetic = velocity.as_ref().iter().zip(masses.as_ref()).map(|(v, m)| 0.5 * m * v * v).sum::<f64>();
-            kinetic - body.mass() * product(&gravity, &S::place(&body.pose))
+            kinetic - body.mass() * product(&gravity, &in_scene(S::place(&body.pose), &self.origin))
         };
         bodies.map(of).sum()
     }
@@ -213,7 +229,7 @@ impl<S: Moving> World<S> {
         let approaches = self.before.iter().flat_map(VelocityLevel::approaches);
         let given = approaches.zip(&self.impulses).map(|(approach, impulse)| ContactImpulse {
             id: approach.id,
-            point: approach.point,
+            point: in_scene(approach.point, &self.origin),
             normal: approach.normal,
             impulse: *impulse,
             along_normal: product(&approach.normal, impulse),
@@ -228,9 +244,12 @@ impl<S: Moving> World<S> {
     /// an overlap too. Nothing has changed then.
     pub fn extend(&mut self, scene: SceneOf<S>) -> Result<(), SimulationError> {
         let known = self.scene.bodies().len();
-        if scene.bodies().get(..known) != Some(self.scene.bodies()) {
+        if scene.bodies().get(..known) != Some(self.scene().bodies()) {
             return Err(SimulationError::OtherBodies);
         }
+        let mut scene = moved(scene, -1.0, &self.origin);
+        // What the world has of its bodies' places is finer than what it says.
+        self.scene.bodies().iter().enumerate().for_each(|(i, body)| scene.set_pose(i, body.pose));
         S::contacts(&scene)?;
         for body in &scene.bodies()[known..] {
             self.velocities.push(S::Velocity::default());
@@ -251,7 +270,7 @@ impl<S: Moving> World<S> {
         &mut self,
         place: impl FnOnce(&mut SceneOf<S>) -> Result<usize, SceneError>,
     ) -> Result<usize, SimulationError> {
-        let mut scene = self.scene.clone();
+        let mut scene = self.scene().into_owned();
         let index = place(&mut scene)?;
         self.extend(scene)?;
         Ok(index)
