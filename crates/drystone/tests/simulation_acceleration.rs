@@ -290,7 +290,7 @@ fn what_is_kept_between_steps_is_in_the_snapshot() {
 /// they obey Coulomb's law, and no step adds energy.
 #[test]
 fn a_heap_has_forces_in_nearly_every_step() {
-    let mut world = world(scenes::drop84(1, 0.5).unwrap(), 1.0 / 240.0);
+    let mut world = world(scenes::drop84(5, 0.5).unwrap(), 1.0 / 240.0);
     let (mut energy, mut without) = (world.energy(), 0);
     for step in 0..600 {
         let record = world.step().unwrap();

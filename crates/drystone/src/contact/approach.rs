@@ -68,6 +68,10 @@ pub trait Approaching: Shape + Send + Sync + 'static {
 
     /// Where two blocks may meet.
     fn meet(near: &Near<'_, Self>) -> Meeting<Self>;
+
+    /// Where two convex pieces of them, of which nothing is before a face of the other, first meet on the ways that
+    /// `near.travel` says. They do not if they come to be no deeper than `allowed` in one another, metres.
+    fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<ApproachOf<Self>>;
 }
 
 /// Two bodies that may meet. Everything is relative to the first one's centroid.
@@ -92,6 +96,9 @@ pub struct Near<'a, S: Approaching> {
 pub struct Meeting<S: Approaching> {
     /// In any order.
     pub approaches: Vec<ApproachOf<S>>,
+    /// Convex pieces, of the first and of the second, that are not deeper in one another than the tolerance and of which nothing
+    /// is before a face of the other. Whether and where they meet depends on their ways: [`Approaching::first_met`].
+    pub open: Vec<[usize; 2]>,
     /// The greatest separation over all planes that may part them, metres: negative by the depth of an overlap.
     pub separation: f64,
 }
@@ -113,6 +120,8 @@ pub struct ApproachFinder<S: Approaching> {
 struct Pair<S: Approaching> {
     bodies: [usize; 2],
     approaches: Vec<ApproachOf<S>>,
+    /// See [`Meeting`].
+    open: Vec<[usize; 2]>,
     /// See [`Meeting`].
     separation: f64,
     /// One of them that turns too far in the step for its points' ways to be straight.
@@ -169,6 +178,37 @@ impl<S: Approaching> ApproachFinder<S> {
         self.pairs.iter().flat_map(|pair| &pair.approaches)
     }
 
+    /// Where bodies meet that go these ways and of which nothing is before a face of the other. Which plane parts two corners or
+    /// edges is a matter of the ways that the bodies really go: before what holds them is known, gravity would pull a block that
+    /// slides over a floor through the top of its next tile, and so against the tile's side.
+    ///
+    /// Bodies that are at rest meet where they close at all, others where they come to be in one another by more than the contact
+    /// tolerance: what slides goes over what is within it.
+    pub fn met(
+        &self,
+        scene: &SceneOf<S>,
+        travel: &[S::Velocity],
+        at_rest: impl Fn(usize) -> bool,
+    ) -> Vec<ApproachOf<S>> {
+        let farthest = |&i: &usize| shift::<S>(&travel[i]) + turn::<S>(&travel[i]) * scene.bodies()[i].shape.radius();
+        let mut met: Vec<ApproachOf<S>> = Vec::new();
+        for pair in self.pairs.iter().filter(|pair| !pair.open.is_empty()) {
+            let near = self.near(scene, pair.bodies, travel);
+            let allowed = if pair.bodies.iter().all(|&i| at_rest(i)) { 0.0 } else { near.tolerance };
+            let least = (pair.separation + allowed).max(CLOSES * near.tolerance);
+            if pair.bodies.iter().map(farthest).sum::<f64>() > least {
+                met.extend(pair.open.iter().flat_map(|&pieces| S::first_met(&near, pieces, allowed)));
+            }
+        }
+        met
+    }
+
+    /// Whether what meets there was found by [`Self::met`].
+    pub fn is_open(&self, id: &ContactId) -> bool {
+        let pair = self.pairs.binary_search_by_key(&id.bodies, |pair| pair.bodies);
+        pair.is_ok_and(|k| self.pairs[k].open.contains(&id.pieces()))
+    }
+
     /// The deepest overlap, metres; zero without one.
     pub fn penetration(&self) -> f64 {
         self.pairs.iter().fold(0.0, |deepest, pair| (-pair.separation).max(deepest))
@@ -185,8 +225,16 @@ impl<S: Approaching> ApproachFinder<S> {
     }
 
     fn look_at(&self, scene: &SceneOf<S>, bodies: [usize; 2], travel: &[S::Velocity]) -> Pair<S> {
+        let near = self.near(scene, bodies, travel);
+        let Meeting { mut approaches, open, separation } = S::meet(&near);
+        approaches.sort_by_key(|approach| approach.id);
+        let whirls = bodies.into_iter().find(|&i| separation <= near.reach && turn::<S>(&travel[i]) > MOST_TURN);
+        Pair { bodies, approaches, open, separation, whirls }
+    }
+
+    fn near(&self, scene: &SceneOf<S>, bodies: [usize; 2], travel: &[S::Velocity]) -> Near<'_, S> {
         let [a, b] = bodies.map(|i| &scene.bodies()[i]);
-        let near = Near {
+        Near {
             bodies,
             outlines: bodies.map(|i| &self.outlines[i]),
             places: [a, b].map(|body| S::place(&body.pose)),
@@ -194,54 +242,52 @@ impl<S: Approaching> ApproachFinder<S> {
             reach: bodies.iter().map(|&i| reach(scene, i, &travel[i])).sum(),
             travel: bodies.map(|i| travel[i]),
             friction: scene.pair_friction(bodies[0], bodies[1]),
-        };
-        let Meeting { mut approaches, separation } = S::meet(&near);
-        approaches.sort_by_key(|approach| approach.id);
-        let whirls = bodies.into_iter().find(|&i| separation <= near.reach && turn::<S>(&travel[i]) > MOST_TURN);
-        Pair { bodies, approaches, separation, whirls }
+        }
     }
 }
 
-/// Finds where two convex bodies first meet on straight ways, from all faces of their Minkowski difference: that which is entered
-/// last, or, of those on which they touch already, that which closes most slowly.
+/// Finds where two convex bodies first meet on straight ways, from all faces of their Minkowski difference: at that beyond which
+/// they are last by more than the contact tolerance.
 pub(super) struct FirstMet<P> {
     tolerance: f64,
+    allowed: f64,
     /// Times of entry and exit, in steps.
     enter: f64,
     leave: f64,
-    last: Option<P>,
-    touching: Option<(f64, P)>,
+    last: Option<(f64, P)>,
 }
 
+/// A face that closes in a step by no more than this share of the contact tolerance does not close: what is left of the speeds of a
+/// solved step, 1e-9 m/s, is of this size, and a weight without support closes by far more.
+const CLOSES: f64 = 1e-6;
+
 impl<P: Copy> FirstMet<P> {
-    /// Within this tolerance, metres, they touch.
-    pub fn new(tolerance: f64) -> Self {
-        Self { tolerance, enter: 0.0, leave: 1.0, last: None, touching: None }
+    /// The tolerance, and how deep they may come to be in one another without meeting, metres.
+    pub fn new(tolerance: f64, allowed: f64) -> Self {
+        Self { tolerance, allowed, enter: 0.0, leave: 1.0, last: None }
     }
 
     /// Takes a face with its gap (m) and what is added to it in the step (m). None if they never meet because of it.
     pub fn see(&mut self, face: P, gap: f64, opening: f64) -> Option<()> {
-        if gap > -self.tolerance && opening >= 0.0 {
-            return None;
-        }
-        if gap > 0.0 {
-            let time = gap / -opening;
-            if self.last.is_none() || time > self.enter {
-                self.last = Some(face);
+        let before = gap + self.allowed;
+        if gap > -self.tolerance {
+            if opening >= -CLOSES * self.tolerance || before >= -opening {
+                return None;
             }
-            self.enter = self.enter.max(time);
+            self.enter = self.enter.max(before / -opening);
+            let beyond = (gap + self.tolerance) / -opening;
+            if self.last.is_none_or(|(last, _)| beyond > last) {
+                self.last = Some((beyond, face));
+            }
         } else if opening > 0.0 {
-            self.leave = self.leave.min(-gap / opening);
-        }
-        if gap.abs() <= self.tolerance && self.touching.is_none_or(|(slowest, _)| opening > slowest) {
-            self.touching = Some((opening, face));
+            self.leave = self.leave.min(-before / opening);
         }
         Some(())
     }
 
     /// The face, and the time halfway between entry and exit; None if they do not meet within the step.
     pub fn found(self) -> Option<(P, f64)> {
-        let face = self.touching.map(|(_, face)| face).or(self.last).filter(|_| self.enter < self.leave)?;
+        let (_, face) = self.last.filter(|_| self.enter < self.leave)?;
         Some((face, 0.5 * (self.enter + self.leave)))
     }
 }

@@ -7,9 +7,8 @@
 //! face does not reach beyond its ends, and a block that falls past an edge must not be held by it.
 //!
 //! Blocks that share a corner or nothing there may yet meet on their way: moved in a straight line, at that face of their
-//! Minkowski difference which is entered last, however far in the step. A face on which they touch already goes first, of several
-//! the one that closes most slowly: a block that slides over the seam of two level ones is not stopped by the side of the
-//! second.
+//! Minkowski difference which is entered last, however far in the step. That is looked for on the ways that come out of a solve
+//! without such a contact (docs/theory/seams.md).
 
 use super::{
     ContactId, Feature,
@@ -37,6 +36,15 @@ impl Approaching for Polygon {
     fn meet(near: &Near<'_, Self>) -> Meeting<Self> {
         let [a, b] = near.places.map(Vector::from_array);
         Corners { near, origin: a, offset: b - a }.meet()
+    }
+
+    fn first_met(near: &Near<'_, Self>, _: [usize; 2], allowed: f64) -> Vec<Approach> {
+        let [a, b] = near.places.map(Vector::from_array);
+        let corners = Corners { near, origin: a, offset: b - a };
+        let met = corners.first_met(allowed);
+        met.map(|(owner, face)| corners.between(owner, &corners.end(owner, face, corners.closest(owner, face))))
+            .into_iter()
+            .collect()
     }
 }
 
@@ -71,7 +79,7 @@ impl Corners<'_> {
         let separation = separation_a.max(separation_b);
         let mut approaches = Vec::new();
         if separation > self.near.reach {
-            return Meeting { approaches, separation };
+            return Meeting { approaches, open: Vec::new(), separation };
         }
         // Of equal faces the first body's, so that rounding does not decide.
         let second = separation_b > separation_a + self.near.tolerance;
@@ -81,11 +89,8 @@ impl Corners<'_> {
             let ends = self.ends(reference, face);
             approaches.extend(ends.into_iter().filter_map(|(owner, end)| self.approach(owner, &end)));
         }
-        if approaches.is_empty() && separation > -self.near.tolerance {
-            let met = self.first_met().map(|(owner, face)| (owner, self.end(owner, face, self.closest(owner, face))));
-            approaches.extend(met.map(|(owner, end)| self.between(owner, &end)));
-        }
-        Meeting { approaches, separation }
+        let open = approaches.is_empty() && separation > -self.near.tolerance;
+        Meeting { approaches, open: if open { vec![[0, 0]] } else { Vec::new() }, separation }
     }
 
     /// What the face shares with the other body's most opposed one, along it, metres: the end is not above the beginning
@@ -176,22 +181,19 @@ impl Corners<'_> {
         of(1, at - self.offset) - of(0, at)
     }
 
-    /// How far the second centroid goes relative to the first.
-    fn drift(&self) -> Vector {
-        let [a, b] = self.near.travel;
-        Vector::new(b[0] - a[0], b[1] - a[1])
-    }
-
     /// The face (of body 0 or 1) at which the second body, moved in a straight line, first meets the first: that of their
     /// Minkowski difference which is entered last, or one on which they touch already. None if they do not meet.
-    fn first_met(&self) -> Option<(usize, usize)> {
-        let drift = self.drift();
-        let mut met = FirstMet::new(self.near.tolerance);
+    fn first_met(&self, allowed: f64) -> Option<(usize, usize)> {
+        let mut met = FirstMet::new(self.near.tolerance, allowed);
         for (owner, face) in [0, 1].into_iter().flat_map(|owner| self.faces(owner).map(move |face| (owner, face))) {
-            let end = self.end(owner, face, self.closest(owner, face));
-            // How fast the other body moves outwards, seen from the face's owner.
-            let opening = if owner == 0 { end.normal.dot(drift) } else { -end.normal.dot(drift) };
-            met.see((owner, face), end.gap, opening)?;
+            let gaps = self.faces(1 - owner).map(|corner| {
+                let end = self.end(owner, face, corner);
+                // How far the corner moves outwards, seen from the face's owner.
+                let shift = end.normal.dot(self.shift(end.at));
+                [end.gap, end.gap + if owner == 0 { shift } else { -shift }]
+            });
+            let [now, then] = gaps.fold([f64::INFINITY; 2], |[now, then], [a, b]| [now.min(a), then.min(b)]);
+            met.see((owner, face), now, then - now)?;
         }
         met.found().map(|(face, _)| face)
     }

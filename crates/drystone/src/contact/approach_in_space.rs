@@ -6,8 +6,7 @@
 //!
 //! Where nothing is before that face, the pieces may yet meet on their way. Moved in a straight line, they do so at that face of
 //! their Minkowski difference which is entered last; the points are those that are before it halfway between entry and exit.
-//! A plane on which they touch already goes first, of several the one that closes most slowly: a block that slides over the seam of
-//! two level ones is not stopped by the side of the second.
+//! That is looked for on the ways that come out of a solve without such a contact (docs/theory/seams.md).
 
 use super::{
     ContactId, Feature,
@@ -36,20 +35,30 @@ impl Approaching for Solid {
     }
 
     fn meet(near: &Near<'_, Self>) -> Meeting<Self> {
-        let [a, b] = near.places.map(Vector3::from_array);
-        let offset = b - a;
-        let (mut approaches, mut separation) = (Vec::new(), f64::INFINITY);
-        for (i, piece) in near.outlines[0].pieces.iter().enumerate() {
-            for (j, other) in near.outlines[1].pieces.iter().enumerate() {
-                let pieces = Pieces { near, pieces: [piece, other], numbers: [i, j], offset };
+        let mut meeting = Meeting { approaches: Vec::new(), open: Vec::new(), separation: f64::INFINITY };
+        for i in 0..near.outlines[0].pieces.len() {
+            for j in 0..near.outlines[1].pieces.len() {
+                let pieces = Pieces::of(near, [i, j]);
                 let (distance, points) = pieces.meet();
-                separation = separation.min(distance);
-                approaches.extend(points.iter().map(|point| pieces.approach(a, point)));
+                meeting.separation = meeting.separation.min(distance);
+                if points.is_empty() && distance > -near.tolerance && distance <= near.reach {
+                    meeting.open.push([i, j]);
+                }
+                meeting.approaches.extend(points.iter().map(|point| pieces.approach(point)));
             }
         }
-        Meeting { approaches, separation }
+        meeting
+    }
+
+    fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<ApproachOf<Self>> {
+        let pieces = Pieces::of(near, pieces);
+        pieces.first_met(allowed).iter().map(|point| pieces.approach(point)).collect()
     }
 }
+
+/// Pieces that meet on their way are in one another by the contact tolerance, which is half of what a shared face has to be wide:
+/// the share of it that counts for them.
+const NARROW: f64 = 0.25;
 
 /// Two convex pieces.
 struct Pieces<'a> {
@@ -69,7 +78,13 @@ struct Point {
     gap: f64,
 }
 
-impl Pieces<'_> {
+impl<'a> Pieces<'a> {
+    fn of(near: &'a Near<'a, Solid>, numbers: [usize; 2]) -> Self {
+        let [a, b] = near.places.map(Vector3::from_array);
+        let pieces = [0, 1].map(|side| &near.outlines[side].pieces[numbers[side]]);
+        Self { near, pieces, numbers, offset: b - a }
+    }
+
     /// How far they are apart, and where they may meet.
     fn meet(&self) -> (f64, Vec<Point>) {
         let ([a, b], bias) = (self.pieces, self.near.tolerance);
@@ -82,20 +97,17 @@ impl Pieces<'_> {
         if plane.distance > self.near.reach {
             return (plane.distance, Vec::new());
         }
-        let mut points = self.points(&plane, Vector3::ZERO);
-        if points.is_empty() && plane.distance > -bias {
-            points = self.first_met().map(|(plane, shift)| self.points(&plane, shift)).unwrap_or_default();
-        }
+        let mut points = self.points(&plane, Vector3::ZERO, bias);
         points.retain(|point| point.gap <= self.near.reach);
-        if points.iter().all(|point| point.gap > 0.5 * plane.distance) && plane.distance < 0.0 {
+        if plane.distance <= -bias && points.iter().all(|point| point.gap > 0.5 * plane.distance) {
             points.extend(self.deepest(&plane));
         }
         (plane.distance, points)
     }
 
     /// Where they meet at a plane once the second has gone by `shift` relative to the first; the points as they are now.
-    fn points(&self, plane: &Separation, shift: Vector3) -> Vec<Point> {
-        let ([a, b], tolerance) = (self.pieces, self.near.tolerance);
+    fn points(&self, plane: &Separation, shift: Vector3, tolerance: f64) -> Vec<Point> {
+        let [a, b] = self.pieces;
         let (offset, normal) = (self.offset + shift, plane.normal);
         let closer = normal.dot(shift);
         match plane.between {
@@ -160,25 +172,59 @@ impl Pieces<'_> {
         [0, 1].map(|side| SolidFeature { piece: self.numbers[side], part: parts[side] })
     }
 
-    /// The plane at which the second piece, moved in a straight line, first meets the first, and a shift after which they
-    /// overlap. None if they do not meet within the step.
-    fn first_met(&self) -> Option<(Separation, Vector3)> {
-        let drift = self.drift();
-        let mut met = FirstMet::new(self.near.tolerance);
-        for plane in planes(self.pieces[0], self.pieces[1], self.offset) {
-            met.see(plane, plane.distance, plane.normal.dot(drift))?;
-        }
-        met.found().map(|(plane, middle)| (plane, middle * drift))
-    }
-
-    /// How far the second centroid goes relative to the first.
-    fn drift(&self) -> Vector3 {
+    /// Where the second piece, moved in a straight line, first meets the first.
+    fn first_met(&self, allowed: f64) -> Vec<Point> {
         let [a, b] = self.near.travel.map(|[x, y, z, ..]| Vector3::new(x, y, z));
-        b - a
+        let Some((plane, middle)) = self.plane_first_met(allowed) else { return Vec::new() };
+        let points = self.points(&plane, middle * (b - a), NARROW * self.near.tolerance);
+        if points.is_empty() { self.deepest(&plane).into_iter().collect() } else { points }
     }
 
-    fn approach(&self, origin: Vector3, point: &Point) -> ApproachOf<Solid> {
-        let [a, b] = self.near.outlines;
+    /// The plane at which they do, and when, in steps. None if they do not meet within the step.
+    fn plane_first_met(&self, allowed: f64) -> Option<(Separation, f64)> {
+        let mut met = FirstMet::new(self.near.tolerance, allowed);
+        for plane in planes(self.pieces[0], self.pieces[1], self.offset) {
+            met.see(plane, plane.distance, self.opening(&plane))?;
+        }
+        met.found()
+    }
+
+    /// By how much a plane's gap grows in the step, to first order, turning included.
+    fn opening(&self, plane: &Separation) -> f64 {
+        let [a, b] = self.pieces;
+        let (normal, offset) = (plane.normal, self.offset);
+        let least = |gaps: &mut dyn Iterator<Item = f64>| gaps.fold(f64::INFINITY, f64::min);
+        match plane.between {
+            Between::FaceOfA(face) => {
+                let on = a.vertices()[a.faces()[face][0]];
+                let then = |v: &Vector3| normal.dot(*v + offset - on + self.shift(*v + offset));
+                least(&mut b.vertices().iter().map(then)) - plane.distance
+            }
+            Between::FaceOfB(face) => {
+                let on = b.vertices()[b.faces()[face][0]] + offset;
+                let then = |v: &Vector3| normal.dot(on - *v + self.shift(*v));
+                least(&mut a.vertices().iter().map(then)) - plane.distance
+            }
+            Between::Edges(edge, other) => {
+                let ends = edge.ends.map(|k| a.vertices()[k]).into_iter();
+                let ends = ends.chain(other.ends.map(|k| b.vertices()[k] + offset));
+                least(&mut ends.map(|at| normal.dot(self.shift(at))))
+            }
+        }
+    }
+
+    /// How far the second body's point goes relative to the first's, to first order.
+    fn shift(&self, at: Vector3) -> Vector3 {
+        let of = |side: usize, arm: Vector3| {
+            let [x, y, z, turning @ ..] = self.near.travel[side];
+            let levers = self.near.outlines[side].axes.map(|axis| axis.cross(arm));
+            Vector3::new(x, y, z) + turning[0] * levers[0] + turning[1] * levers[1] + turning[2] * levers[2]
+        };
+        of(1, at - self.offset) - of(0, at)
+    }
+
+    fn approach(&self, point: &Point) -> ApproachOf<Solid> {
+        let ([a, b], origin) = (self.near.outlines, Vector3::from_array(self.near.places[0]));
         let feature = Feature::Solids { a: point.features[0], b: point.features[1] };
         Approach {
             id: ContactId { bodies: self.near.bodies, feature },

@@ -13,6 +13,16 @@ pub struct ContactId {
     pub feature: Feature,
 }
 
+impl ContactId {
+    /// The convex pieces of the two that meet: 0 in the plane.
+    pub fn pieces(&self) -> [usize; 2] {
+        match self.feature {
+            Feature::Solids { a, b } => [a.piece, b.piece],
+            _ => [0, 0],
+        }
+    }
+}
+
 /// What meets at a contact point. Face k runs from vertex k to the next one, counter-clockwise;
 /// "a" is the block with the lower index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

@@ -16,7 +16,7 @@ use crate::{
 /// 1e-13 m there.
 const GRAIN: f64 = 1024.0;
 
-/// The multiple of [`GRAIN`] nearest to the middle of the bodies' centroids, on every axis.
+/// The multiple of [`GRAIN`] nearest to the middle of the bodies' places, on every axis.
 pub(super) fn origin_of<S: Shape>(scene: &SceneOf<S>) -> S::Vector {
     let mut origin = S::Vector::default();
     for (axis, entry) in origin.as_mut().iter_mut().enumerate() {

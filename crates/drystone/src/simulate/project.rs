@@ -1,4 +1,6 @@
-//! Overlaps that are left at the end of a step are taken back in the places alone, not in the velocities.
+//! Overlaps that are left at the end of a step are taken back in the places alone, not in the velocities, if they are deeper than
+//! the contact tolerance. What is within it touches; to lift a block over the seam of a tile that is higher by less would cost a
+//! slow one its speed.
 //!
 //! The step's problem is linear in the turn of the bodies, so a corner on a turning face may end the step within the other
 //! block by about (turn in one step)^2 of its arm. The shortest way out, in the metric of the masses, is a complementarity problem
@@ -17,9 +19,6 @@ use super::{
 };
 use crate::{contact::approach::ApproachOf, scene::SceneOf};
 use drystone_lcp::{Counts, Problem, Settings, Solver, Status, cone::Columns};
-
-/// Overlaps are taken back when they are deeper than this share of the pair's contact tolerance.
-pub(super) const ALLOWED: f64 = 0.5;
 
 /// Times the problem is linearised anew. Each leaves a square of what the last one moved, so two are the rule.
 pub(super) const ROUNDS: usize = 10;

@@ -32,6 +32,15 @@ pub struct Motion<S: Moving = Polygon> {
     pub inconsistent: Option<Inconsistent>,
 }
 
+impl<S: Moving> Motion<S> {
+    /// Counts the work of an earlier solve of the same step.
+    pub(super) fn add_earlier(&mut self, earlier: &Self) {
+        self.solves += earlier.solves;
+        self.counts = self.counts + earlier.counts;
+        self.time += earlier.time;
+    }
+}
+
 /// One solve for assumed sliding speeds.
 struct Trial<S: Moving> {
     velocities: Vec<S::Velocity>,

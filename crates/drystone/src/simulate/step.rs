@@ -6,7 +6,7 @@ use super::{
     integrate::advance,
     motionless::motionless_bodies,
     moving::{Moving, is_zero, split_mut},
-    project::{ALLOWED, ROUNDS, shift, way_out},
+    project::{ROUNDS, shift, way_out},
     reuse::Reuse,
     solve::Motion,
     velocity_level::VelocityLevel,
@@ -80,8 +80,7 @@ impl<S: Moving> World<S> {
         if let Some(record) = self.stay(&free, begun) {
             return Ok(record);
         }
-        let problem = self.problem_of(self.finder.approaches().copied().collect());
-        let motion = self.law.motion(self, &problem, &free)?;
+        let (problem, motion) = self.move_on(&free)?;
         let motionless = self.find_motionless(&motion)?;
         let projected = self.integrate(motion.velocities, motionless);
 
@@ -132,6 +131,34 @@ impl<S: Moving> World<S> {
         (0..velocities.len()).map(free).collect()
     }
 
+    /// Solves the step; again where bodies then meet of which nothing was before a face of the other.
+    fn move_on(&mut self, free: &[S::Velocity]) -> Result<(VelocityLevel<S>, Motion<S>), StepFailure> {
+        let mut problem = self.problem_of(self.finder.approaches().copied().collect());
+        let mut motion = self.law.motion(self, &problem, free)?;
+        loop {
+            let more = self.met(&problem, &motion);
+            if more.is_empty() {
+                return Ok((problem, motion));
+            }
+            let mut approaches = [problem.approaches(), &more].concat();
+            approaches.sort_by_key(|approach| approach.id);
+            let next = self.problem_of(approaches);
+            self.sliding.clone_from(&motion.sliding);
+            self.before = Some(std::mem::replace(&mut problem, next));
+            let earlier = std::mem::replace(&mut motion, self.law.motion(self, &problem, free)?);
+            motion.add_earlier(&earlier);
+        }
+    }
+
+    /// Where bodies meet that move so, beside what the problem knows. Nobody meets twice in a step, so this ends.
+    fn met(&self, problem: &VelocityLevel<S>, motion: &Motion<S>) -> Vec<ApproachOf<S>> {
+        let pair = |approach: &ApproachOf<S>| (approach.id.bodies, approach.id.pieces());
+        let known = |approach: &ApproachOf<S>| problem.approaches().iter().any(|known| pair(known) == pair(approach));
+        let mut met = self.finder.met(&self.scene, &self.ways(&motion.velocities), |i| is_zero(&self.velocities[i]));
+        met.retain(|approach| !known(approach));
+        met
+    }
+
     /// Finds every approach that may close within the step.
     fn look(&mut self, free: &[S::Velocity]) -> Result<(), StepFailure> {
         if self.options.reuse != Reuse::Full {
@@ -150,13 +177,18 @@ impl<S: Moving> World<S> {
     }
 
     fn find_approaches(&mut self, free: &[S::Velocity]) {
+        let travel = self.ways(free);
+        self.finder.find(&self.scene, &travel);
+    }
+
+    /// How far bodies go in a step.
+    fn ways(&self, velocities: &[S::Velocity]) -> Vec<S::Velocity> {
         let way = |velocity: &S::Velocity| {
             let mut way = *velocity;
             way.as_mut().iter_mut().for_each(|x| *x *= self.options.dt);
             way
         };
-        let travel: Vec<S::Velocity> = free.iter().map(way).collect();
-        self.finder.find(&self.scene, &travel);
+        velocities.iter().map(way).collect()
     }
 
     fn too_fast(&self, body: usize, [a, b]: [usize; 2], free: &[S::Velocity]) -> StepFailure {
@@ -212,7 +244,7 @@ impl<S: Moving> World<S> {
         sliding
     }
 
-    /// Takes overlaps back until none is deeper than allowed, or nothing helps. Finds the approaches of the next step.
+    /// Takes overlaps back until none is deeper than the contact tolerance, or nothing helps. Finds the approaches of the next step.
     fn project(&mut self) -> Projected {
         let mut projected = Projected::default();
         loop {
@@ -220,7 +252,7 @@ impl<S: Moving> World<S> {
             let deep = |([a, b], depth): ([usize; 2], f64)| {
                 let bodies = self.scene.bodies();
                 let held = self.motionless[a] && self.motionless[b];
-                !held && depth > ALLOWED * pair_tolerance(&self.scene, &bodies[a], &bodies[b])
+                !held && depth > pair_tolerance(&self.scene, &bodies[a], &bodies[b])
             };
             if projected.rounds == ROUNDS || !self.finder.overlaps().any(deep) {
                 return projected;
