@@ -62,12 +62,6 @@ pub enum SceneError {
         /// The block's name.
         body: String,
     },
-    /// Whoever asked for a built-in scene wants it no more.
-    #[error("building {scene} was interrupted")]
-    Interrupted {
-        /// The scene's name.
-        scene: &'static str,
-    },
     /// Something that is only there for the plane.
     #[error("this scene is in space: polygons, extrusion and simulation take one in the plane (dimension 2)")]
     NotInPlane,

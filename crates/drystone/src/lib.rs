@@ -35,6 +35,7 @@ mod suggest;
 pub use any_scene::AnyScene;
 pub use check::{Verdict, check};
 pub use contact::{Contact, ContactId, ContactSet, Feature, find_contacts};
+pub use drystone_lcp::interrupt;
 pub use error::{FileError, SceneError};
 pub use mass_properties::{InertiaFault, MassProperties};
 pub use scene::{Body, BodyOptions, Scene, SceneOf};

@@ -2,6 +2,7 @@
 
 use crate::error::SceneError;
 use crate::geometry::{Polygon, Pose, Shape, Vector3};
+use crate::interrupt::poll;
 use crate::mass_properties::{MassProperties, Weighed};
 use crate::suggest::nearest;
 use std::collections::HashMap;
@@ -101,6 +102,9 @@ pub struct SceneOf<S: Shape> {
     index: HashMap<String, usize>,
 }
 
+/// Operations to take a body in, about.
+const BODY: usize = 4000;
+
 impl<S: Shape> SceneOf<S> {
     /// An empty scene. `gravity` in m/s^2; `friction` is the coefficient of every block without
     /// one of its own.
@@ -140,6 +144,7 @@ impl<S: Shape> SceneOf<S> {
         pose: S::Pose,
         options: BodyOptions,
     ) -> Result<usize, SceneError> {
+        poll(BODY);
         let BodyOptions { density, friction, fixed, own, .. } = options;
         positive(&format!("block \"{name}\": density"), density)?;
         if let Some(friction) = friction {

@@ -10,6 +10,7 @@ use crate::{
     check::{self, Verdict},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet},
+    interrupt::or_else,
     scene::SceneOf,
 };
 use drystone_lcp::{
@@ -28,6 +29,9 @@ pub(crate) use putting_up::put_up;
 /// opposite to that in which they came leave the state that was there before them. And as long as the blocks that came and
 /// went leave the last collapse as it was (Lemma 1, `plan/collapse.rs`), the structure still falls, and the solver is not
 /// asked.
+///
+/// An answer that is stopped on the way ([`interrupt`](crate::interrupt)) leaves the blocks as they are; the next one begins from
+/// nothing.
 ///
 /// ```
 /// use drystone::{Structure, scenes};
@@ -115,6 +119,13 @@ impl Structure {
         }
     }
 
+    /// Puts up and takes away what makes these the blocks that are there.
+    pub fn set(&mut self, blocks: &BlockSet) {
+        for block in 0..self.assembly.blocks() {
+            if blocks.contains(block) { self.add(block) } else { self.remove(block) }
+        }
+    }
+
     /// Tells the solver what has come and gone: the new blocks from the supports upward.
     fn put_up(&mut self) {
         let Self { assembly, rows, solver, history, .. } = self;
@@ -130,6 +141,10 @@ impl Structure {
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.
     pub fn stands(&mut self) -> Option<bool> {
+        or_else(self, Self::decide, Self::begin_anew)
+    }
+
+    fn decide(&mut self) -> Option<bool> {
         let fall = Fall { solver: &self.solver, rows: &self.rows, assembly: &self.assembly };
         if self.fell && fall.carries_over(&self.new, &self.gone) {
             return Some(false);
@@ -146,6 +161,17 @@ impl Structure {
 
     /// The verdict with all forces, or with the accelerations if it falls.
     pub fn check(&mut self) -> Verdict {
+        or_else(self, Self::judge, Self::begin_anew)
+    }
+
+    /// The same blocks, of which the solver knows nothing yet: it was stopped somewhere.
+    fn begin_anew(&mut self) {
+        self.solver = self.assembly.equilibrium();
+        (self.new, self.gone) = (self.blocks.iter().collect(), Vec::new());
+        (self.history, self.fell) = (History::default(), false);
+    }
+
+    fn judge(&mut self) -> Verdict {
         let before = self.solver.counts();
         self.put_up();
         let found = self.solver.solve();

@@ -1,8 +1,14 @@
 //! The built-in scenes: what they are made of, derived from their definitions.
 
-use drystone::{Body, Scene, SceneError, check, find_contacts, formulate::Cones, scenes};
+use drystone::{Body, Scene, SceneError, check, find_contacts, formulate::Cones, interrupt::Interrupt, scenes};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::{
+    collections::BTreeMap,
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering::Relaxed},
+    },
+};
 
 fn movable(scene: &Scene) -> Vec<&Body> {
     scene.bodies().iter().filter(|body| !body.fixed).collect()
@@ -165,21 +171,11 @@ fn a_random_stack_is_the_same_for_the_same_seed_and_stands() {
 
 #[test]
 fn building_a_random_stack_can_be_stopped() {
-    let given = BTreeMap::from([("blocks".to_owned(), 30.into())]);
-    let mut asked = 0;
-    let stopped = scenes::build_while("random_stack", &given, &mut || {
-        asked += 1;
-        asked < 10
-    });
-    assert_eq!(stopped, Err(SceneError::Interrupted { scene: "random_stack" }));
-    assert_eq!(asked, 10);
-    let mut asked = 0;
-    let whole = scenes::build_while("random_stack", &given, &mut || {
-        asked += 1;
-        true
-    });
-    assert_eq!(whole, scenes::build("random_stack", &given));
-    assert_eq!(asked, 30);
+    let asked = Arc::new(AtomicUsize::new(0));
+    let count = Arc::clone(&asked);
+    let third = Interrupt::new(move || count.fetch_add(1, Relaxed) == 2);
+    assert_eq!(third.run(|| scenes::random_stack(200, 1, 0.0)), None);
+    assert_eq!(asked.load(Relaxed), 3);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The problem of generators: forces `G f` with `f >= 0` on bodies of known mass.
 
-use crate::{cone::Columns, error::LcpError, matrix::SparseColumns, problem::Problem};
+use crate::{cone::Columns, error::LcpError, interrupt::poll, matrix::SparseColumns, problem::Problem};
 
 impl Problem {
     /// `M = G' W G` and `q = -G' W h`: of all `f >= 0` the solution's `G f` is the nearest to `h` in the norm of W.
@@ -77,6 +77,9 @@ fn gram(g: &Columns, inverse_mass: &[f64]) -> Result<SparseColumns, LcpError> {
     SparseColumns::sorted(indptr, indices, data)
 }
 
+/// Operations for an entry of a column, sorting included, about.
+const SORTED: usize = 16;
+
 /// One column of `G' W G` at a time.
 struct Products<'a> {
     g: &'a Columns,
@@ -110,6 +113,7 @@ impl<'a> Products<'a> {
             }
         }
         self.reached.sort_unstable();
+        poll(SORTED * self.reached.len());
     }
 }
 

@@ -27,6 +27,7 @@ mod counts;
 mod error;
 pub mod factor;
 mod generators;
+pub mod interrupt;
 mod matrix;
 mod pivot;
 mod problem;

@@ -1,6 +1,6 @@
 //! A square matrix in compressed columns: the one matrix type of this crate.
 
-use crate::error::LcpError;
+use crate::{error::LcpError, interrupt::poll};
 
 /// A square sparse matrix, column by column, with sorted row indices and no duplicates.
 ///
@@ -72,6 +72,7 @@ impl SparseColumns {
         }
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for j in 0..n {
+            poll(4 * n);
             for i in 0..n {
                 let value = values[i * n + j];
                 if value != 0.0 {
@@ -86,6 +87,7 @@ impl SparseColumns {
 
     fn sort_columns(&mut self) {
         for j in 0..self.n {
+            poll(self.indptr[j + 1] - self.indptr[j]);
             let range = self.indptr[j]..self.indptr[j + 1];
             if self.indices[range.clone()].is_sorted() {
                 continue;
@@ -164,6 +166,7 @@ impl SparseColumns {
 
     /// `y + M x`, the products of each row added up in a fixed order.
     pub fn multiply_add(&self, x: &[f64], y: &[f64]) -> Vec<f64> {
+        poll(self.stored());
         let mut result = y.to_vec();
         for (j, &xj) in x.iter().enumerate() {
             if xj != 0.0 {
@@ -191,6 +194,7 @@ impl SparseColumns {
     pub(crate) fn scaled_symmetrically(&self, d: &[f64]) -> Self {
         let mut scaled = self.clone();
         for j in 0..self.n {
+            poll(self.indptr[j + 1] - self.indptr[j]);
             for p in self.indptr[j]..self.indptr[j + 1] {
                 scaled.data[p] *= d[self.indices[p]] * d[j];
             }
@@ -202,6 +206,7 @@ impl SparseColumns {
     /// other than they were.
     pub(crate) fn scale_again(&mut self, other: &Self, d: &[f64], moved: impl Fn(usize) -> bool) {
         for j in 0..self.n {
+            poll(self.indptr[j + 1] - self.indptr[j]);
             let whole = moved(j);
             for p in self.indptr[j]..self.indptr[j + 1] {
                 let i = self.indices[p];
@@ -221,6 +226,7 @@ impl SparseColumns {
         let (mut indptr, mut rows_out, mut data) = (vec![0], Vec::new(), Vec::new());
         for &j in indices {
             let (rows, values) = self.column(j);
+            poll(4 * rows.len());
             for (&i, &value) in rows.iter().zip(values) {
                 if place[i] != usize::MAX {
                     rows_out.push(place[i]);

@@ -1,6 +1,6 @@
 //! The problem: `M` and `q`, validated once and fixed during a solve.
 
-use crate::{error::LcpError, matrix::SparseColumns};
+use crate::{error::LcpError, interrupt::poll, matrix::SparseColumns};
 
 /// `w = M z + q`, `0 <= z` complementary to `w >= 0`.
 #[derive(Debug, Clone)]
@@ -24,6 +24,9 @@ const SYMMETRY: f64 = 1e-12;
 
 /// `|M_ij|` may exceed `sqrt(M_ii M_jj)` by this much of it; rounding in `G' M^-1 G` with repeated columns is near 1e-15.
 const SEMIDEFINITE: f64 = 1e-9;
+
+/// Operations to find an entry of a column, about.
+const SEARCH: usize = 16;
 
 impl Problem {
     /// Takes a sparse matrix (n x n) and a vector (n).
@@ -113,6 +116,7 @@ impl Problem {
         }
         for column in 0..self.len() {
             let (rows, values) = self.m.column(column);
+            poll(SEARCH * rows.len());
             for (&row, &value) in rows.iter().zip(values) {
                 let mirror = self.m.get(column, row);
                 let size = (diagonal[row] * diagonal[column]).sqrt().max(value.abs());
@@ -128,6 +132,7 @@ impl Problem {
     fn require_small_blocks_semidefinite(&self, diagonal: &[f64]) -> Result<(), LcpError> {
         for column in 0..self.len() {
             let (rows, values) = self.m.column(column);
+            poll(SEARCH * rows.len());
             for (&index, value) in rows.iter().zip(values) {
                 let bound = diagonal[index].sqrt() * diagonal[column].sqrt();
                 if value.abs() > bound * (1.0 + SEMIDEFINITE) {

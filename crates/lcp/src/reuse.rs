@@ -5,7 +5,11 @@
 //! method ends in at most n - k major cycles. Valid when `M11` and `q1` are exactly the rows and columns of `M` and `q` on
 //! those indices; that is checked, because a start from another problem gives a violated row among them.
 
-use crate::{problem::Problem, scaling::Scaling};
+use crate::{
+    interrupt::{apart, poll},
+    problem::Problem,
+    scaling::Scaling,
+};
 use faer::{Mat, linalg::solvers::Solve};
 use serde::{Deserialize, Serialize};
 
@@ -83,9 +87,16 @@ impl Start {
     /// `z` is negative. None if one is, or if the rows depend on one another. Any M; dense, by LU.
     pub fn from_active(problem: &Problem, active: &[usize]) -> Option<Self> {
         let k = active.len();
-        let block = Mat::from_fn(k, k, |i, j| problem.m().get(active[i], active[j]));
+        let entry = |i: usize, j: usize| {
+            poll(16);
+            problem.m().get(active[i], active[j])
+        };
+        let block = Mat::from_fn(k, k, entry);
         let right = Mat::from_fn(k, 1, |i, _| -problem.q()[active[i]]);
-        let solved = block.partial_piv_lu().solve(&right);
+        let (block, right, solved) = apart(k * k * k, move || {
+            let solved = block.partial_piv_lu().solve(&right);
+            (block, right, solved)
+        });
         let d = Scaling::new(problem).d;
         let size = (0..k).map(|i| (solved[(i, 0)] / d[active[i]]).abs().max((right[(i, 0)] * d[active[i]]).abs()));
         let zero = TOLERANCE * size.fold(0.0, f64::max);

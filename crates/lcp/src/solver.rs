@@ -53,6 +53,9 @@ enum Role {
 /// The answer is that of a fresh solve of the rows present (`w` is; `z` too where it is unique). Between two solves the
 /// factor of the active block is moved by the rows that enter and leave it, never rebuilt.
 ///
+/// Stopped on the way ([`crate::interrupt`]), it has the rows and the `q` from before the call, and the next solve begins
+/// from nothing.
+///
 /// Everything inside is scaled to a unit diagonal; what goes in and comes out is in the caller's units.
 ///
 /// ```
@@ -273,13 +276,15 @@ impl Solver {
     /// [`LcpError::RowOutOfRange`]; nothing has changed then.
     pub fn remove_rows(&mut self, rows: &[usize]) -> Result<(), LcpError> {
         self.require_rows(rows)?;
-        for &i in rows {
-            self.role[i] = Role::Absent;
-            // Without force nothing else feels that the row has gone.
-            self.settled &= self.z[i] == 0.0;
-            self.leave(i);
-        }
-        self.measure_q();
+        self.or_as_before(|solver| {
+            for &i in rows {
+                solver.role[i] = Role::Absent;
+                // Without force nothing else feels that the row has gone.
+                solver.settled &= solver.z[i] == 0.0;
+                solver.leave(i);
+            }
+            solver.measure_q();
+        });
         Ok(())
     }
 
@@ -333,6 +338,10 @@ impl Solver {
     /// # Errors
     /// [`LcpError::Start`] says why the start is refused; no row is present then.
     pub fn start_from(&mut self, start: &Start) -> Result<(), LcpError> {
+        self.or_as_before(|solver| solver.take_start(start))
+    }
+
+    fn take_start(&mut self, start: &Start) -> Result<(), LcpError> {
         self.clear();
         start.require_well_formed(self.problem.len())?;
         for (&i, &z) in start.indices.iter().zip(&start.z) {
@@ -378,7 +387,8 @@ impl Solver {
         self.counts_at_solve = self.counts;
         self.ray = None;
         let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
-        let answer = method(self, self.counts.pivots + self.settings.pivot_limit_for(present));
+        let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
+        let answer = self.or_as_before(|solver| method(solver, limit));
         // Without an answer the row driven last has both z > 0 and w < 0.
         self.settled = answer.as_ref().is_ok_and(|status| *status == Status::Solved.into());
         answer

@@ -4,6 +4,7 @@ use crate::{
     arrays::{matrix, vector},
     errors::plan_error,
     scene::Scene,
+    watch::{in_python, interruptible},
 };
 use drystone::plan as core;
 use numpy::{PyArray1, PyArray2};
@@ -60,7 +61,7 @@ pub fn forces_along(
     let mut gathered = Gathered { offsets: vec![0], ..Gathered::default() };
     let (mut last, mut stopped) = (Instant::now(), None);
     let assembly = scene.assembly(py, cones)?;
-    py.detach(|| {
+    interruptible(py, || {
         let blocks = assembly.named(&order)?;
         let wanted = |placed: usize| (blocks.len() - placed).is_multiple_of(every);
         core::forces_along(&assembly, &blocks, wanted, |structure| {
@@ -72,7 +73,7 @@ pub fn forces_along(
             }
             stopped.is_none()
         })
-    })
+    })?
     .map_err(plan_error)?;
     if let Some(error) = stopped {
         return Err(error);
@@ -92,7 +93,7 @@ pub fn forces_along(
 
 /// Looks for Ctrl-C and reports progress.
 fn tell(progress: Option<&Py<PyAny>>, placed: usize, blocks: usize) -> PyResult<()> {
-    Python::attach(|py| {
+    in_python(|py| {
         py.check_signals()?;
         progress.map_or(Ok(()), |function| function.call1(py, (placed, blocks)).map(drop))
     })

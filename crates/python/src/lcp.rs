@@ -1,6 +1,6 @@
 //! `lcp_solve`: matrices in compressed columns in, a checked solution out.
 
-use crate::{arrays::vector, errors::lcp_error};
+use crate::{arrays::vector, errors::lcp_error, watch::interruptible};
 use drystone_lcp::{Block, Dantzig, LcpError, Lemke, Method, Problem, Settings, Solution, SparseColumns, Start};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::{exceptions::PyValueError, prelude::*};
@@ -75,11 +75,10 @@ pub fn lcp_solve(
     let (indptr, indices) = (whole_numbers(&indptr, "indptr")?, whole_numbers(&indices, "indices")?);
     let (data, q) = (values(&data), values(&q));
     let settings = Settings { pivot_limit, ..Settings::default() };
-    let solution = py
-        .detach(|| {
-            let m = SparseColumns::new(indptr.len().saturating_sub(1), indptr, indices, data)?;
-            solver.solve(&Problem::new(m, q)?, start.as_ref(), &settings)
-        })
-        .map_err(|error| lcp_error(&error))?;
+    let solution = interruptible(py, || {
+        let m = SparseColumns::new(indptr.len().saturating_sub(1), indptr, indices, data)?;
+        solver.solve(&Problem::new(m, q)?, start.as_ref(), &settings)
+    })?
+    .map_err(|error| lcp_error(&error))?;
     Ok(LcpSolution::new(py, solution))
 }

@@ -4,6 +4,7 @@ use crate::{
     errors::lcp_error,
     guard::Guarded,
     lcp::{LcpSolution, values, whole_numbers},
+    watch::interruptible,
 };
 use drystone_lcp::{Counts, LcpError, Problem, Settings, Snapshot, Solver, SparseColumns, cone::Columns};
 use numpy::PyReadonlyArray1;
@@ -49,10 +50,10 @@ impl LcpSolver {
     ) -> PyResult<Self> {
         let (indptr, indices) = (whole_numbers(&indptr, "indptr")?, whole_numbers(&indices, "indices")?);
         let (data, q) = (values(&data), values(&q));
-        raised(py.detach(|| {
+        raised(interruptible(py, || {
             let m = SparseColumns::new(indptr.len().saturating_sub(1), indptr, indices, data)?;
             Ok(Self::of(Solver::new(Problem::new(m, q)?, settings(pivot_limit))?))
-        }))
+        })?)
     }
 
     /// G in compressed columns; as many inverse masses and loads as G has rows.
@@ -69,18 +70,22 @@ impl LcpSolver {
     ) -> PyResult<Self> {
         let (indptr, indices) = (whole_numbers(&indptr, "indptr")?, whole_numbers(&indices, "indices")?);
         let (data, inverse_mass, h) = (values(&data), values(&inverse_mass), values(&h));
-        raised(py.detach(|| {
+        raised(interruptible(py, || {
             let g = Columns::new(h.len(), &indptr, &indices, &data)?;
             Ok(Self::of(Solver::from_generators(&g, &inverse_mass, &h, settings(pivot_limit))?))
-        }))
+        })?)
     }
 
-    fn add_rows(&self, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
-        raised(self.core.write()?.add_rows(&whole_numbers(&rows, "rows")?))
+    fn add_rows(&self, py: Python<'_>, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
+        let (rows, mut guard) = (whole_numbers(&rows, "rows")?, self.core.write()?);
+        let core = &mut *guard;
+        raised(interruptible(py, || core.add_rows(&rows))?)
     }
 
-    fn remove_rows(&self, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
-        raised(self.core.write()?.remove_rows(&whole_numbers(&rows, "rows")?))
+    fn remove_rows(&self, py: Python<'_>, rows: PyReadonlyArray1<'_, i64>) -> PyResult<()> {
+        let (rows, mut guard) = (whole_numbers(&rows, "rows")?, self.core.write()?);
+        let core = &mut *guard;
+        raised(interruptible(py, || core.remove_rows(&rows))?)
     }
 
     fn set_q(&self, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
@@ -95,7 +100,7 @@ impl LcpSolver {
     fn solve(&self, py: Python<'_>) -> PyResult<LcpSolution> {
         let mut guard = self.core.write()?;
         let core = &mut *guard;
-        let solution = raised(py.detach(|| core.solve().map(|status| core.solution(status))))?;
+        let solution = raised(interruptible(py, || core.solve().map(|status| core.solution(status)))?)?;
         Ok(LcpSolution::new(py, solution))
     }
 
@@ -103,8 +108,10 @@ impl LcpSolver {
         Ok(LcpSnapshot { core: self.core.read()?.snapshot() })
     }
 
-    fn restore(&self, snapshot: &LcpSnapshot) -> PyResult<()> {
-        raised(self.core.write()?.restore(&snapshot.core))
+    fn restore(&self, py: Python<'_>, snapshot: &LcpSnapshot) -> PyResult<()> {
+        let mut guard = self.core.write()?;
+        let core = &mut *guard;
+        raised(interruptible(py, || core.restore(&snapshot.core))?)
     }
 
     fn rows(&self) -> PyResult<Vec<usize>> {

@@ -1,6 +1,12 @@
 //! `plan`, with the stability tests of the core or one from Python.
 
-use crate::{arrays::vector, errors::plan_error, scene::Scene, verdict::Verdict, watch::Watch};
+use crate::{
+    arrays::vector,
+    errors::{plan_error, scene_error},
+    scene::Scene,
+    verdict::Verdict,
+    watch::{Watch, in_python, interruptible},
+};
 use drystone::{
     AnyScene,
     formulate::{Assemble, Assembly, BlockSet},
@@ -97,7 +103,7 @@ pub struct Callback {
 
 impl StabilityTest for Callback {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
-        Python::attach(|py| {
+        in_python(|py| {
             let answer = self.function.call1(py, (blocks.iter().collect::<Vec<_>>(), added));
             match answer.and_then(|answer| answer.extract::<(bool, usize)>(py)) {
                 Ok((stands, pivots)) => Ok(TestOutcome { stands, pivots }),
@@ -129,21 +135,35 @@ pub fn plan(
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
     let conditions = Conditions { hold, clear_path: directions.map(|directions| ClearPath { directions }) };
     let mut watch = Watch::new(progress);
+    let signals = watch.signals.clone();
     let start = Instant::now();
-    let assembly = scene.assembly(py, cones)?;
-    let contacts = start.elapsed();
+    let cones = crate::scene::cones(cones)?;
+    // The time is the limit of all that this does.
+    let scene = scene.now();
+    let found = signals.run(py, || limits.interrupt(start).run(|| scene.assembly(cones)));
+    let Some(assembly) = found.flatten() else {
+        return match signals.raised() {
+            Some(error) => Err(error),
+            None => {
+                let stopped = core::Plan::stopped(core::Outcome::TimeLimit, start.elapsed());
+                to_python(py, None, &stopped, Duration::ZERO)
+            }
+        };
+    };
+    let assembly = assembly.map_err(|error| scene_error(&error))?;
+    let (contacts, limits) = (start.elapsed(), limits.after(start));
     let asked = match test.is_callable() {
         true => Asked::Callback(Callback { function: test.clone().unbind() }),
         false => Asked::Named(named_test(&test.extract::<String>()?)?),
     };
-    let scene = scene.now();
-    let planned = py.detach(|| match &*scene {
+    let planned = signals.run(py, || match &*scene {
         AnyScene::Plane(scene) => planned(scene, &assembly, asked, &conditions, limits, &mut watch),
         AnyScene::Space(scene) => planned(scene, &assembly, asked, &conditions, limits, &mut watch),
     });
-    match watch.error() {
+    let planned = planned.ok_or_else(|| signals.error())?;
+    match watch.error(py) {
         Some(error) => Err(error),
-        None => to_python(py, &assembly, &planned.map_err(plan_error)?, contacts),
+        None => to_python(py, Some(&assembly), &planned.map_err(plan_error)?, contacts),
     }
 }
 
@@ -183,16 +203,17 @@ fn clean(&[x, y, z]: &[f64; 3]) -> Way {
     (x + 0.0, y + 0.0, z + 0.0)
 }
 
-fn to_python(py: Python<'_>, assembly: &Assembly, plan: &core::Plan, contacts: Duration) -> PyResult<Plan> {
-    let name = |index: usize| assembly.bodies()[index].name.clone();
+/// Without an assembly for a plan that names nothing.
+fn to_python(py: Python<'_>, assembly: Option<&Assembly>, plan: &core::Plan, contacts: Duration) -> PyResult<Plan> {
+    let name = |index: usize| assembly.map_or_else(String::new, |assembly| assembly.bodies()[index].name.clone());
     let names = |bodies: &[usize]| -> Vec<String> { bodies.iter().map(|&index| name(index)).collect() };
     let way = |(direction, bodies): &([f64; 3], Vec<usize>)| (clean(direction), names(bodies));
     let record = |record: &core::TestRecord| {
         let (TestOutcome { stands, pivots }, seconds) = (record.outcome, record.time.as_secs_f64());
         Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
     };
-    let verdict = |whole| Py::new(py, Verdict::new(py, assembly, whole, plan.whole_time)?);
-    let whole = plan.whole.as_ref().map(verdict);
+    let verdict = |(assembly, whole)| Py::new(py, Verdict::new(py, assembly, whole, plan.whole_time)?);
+    let whole = assembly.zip(plan.whole.as_ref()).map(verdict);
     Ok(Plan {
         status: plan.outcome.name().to_owned(),
         found: plan.outcome == core::Outcome::Found,
@@ -216,7 +237,7 @@ fn to_python(py: Python<'_>, assembly: &Assembly, plan: &core::Plan, contacts: D
 #[pyfunction]
 pub fn disassembly_graph(py: Python<'_>, scene: &Scene) -> PyResult<Vec<(Vec<String>, bool)>> {
     let assembly = scene.assembly(py, None)?;
-    let nodes = py.detach(|| core::disassembly_graph(&assembly)).map_err(plan_error)?;
+    let nodes = interruptible(py, || core::disassembly_graph(&assembly))?.map_err(plan_error)?;
     let name = |&index: &usize| assembly.bodies()[index].name.clone();
     Ok(nodes.iter().map(|node| (node.bodies.iter().map(name).collect(), node.stands)).collect())
 }

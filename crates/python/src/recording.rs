@@ -1,11 +1,11 @@
 //! `Recording`: the stability tests of one search, to put to other methods.
 
-use crate::{errors::plan_error, plan::Callback, scene::Scene, watch::PERIOD};
+use crate::{errors::plan_error, plan::Callback, scene::Scene, watch::interruptible};
 use drystone::{
-    formulate::{Assembly, BlockSet},
+    formulate::Assembly,
     plan::{
         self as core, ByBlocks, ByLemke, FromScratch, Limits, PlanError, Quiet, Recorder, Reuse, ReuseDantzig,
-        StabilityTest, Step, TestOutcome,
+        StabilityTest, Step,
     },
 };
 use pyo3::{
@@ -44,7 +44,7 @@ impl Recording {
         let assembly = scene.assembly(py, None)?;
         let limits = Limits { shortcuts: false, ..Limits::default() };
         let mut test = Recorder::new(Callback { function: test });
-        py.detach(|| core::plan_with(&assembly, &mut test, limits, &mut Quiet)).map_err(raised)?;
+        interruptible(py, || core::plan_with(&assembly, &mut test, limits, &mut Quiet))?.map_err(raised)?;
         Ok(Self { assembly, steps: test.into_steps() })
     }
 
@@ -54,14 +54,14 @@ impl Recording {
         } else {
             Asked::Named(test.extract::<String>()?)
         };
-        py.detach(|| {
+        interruptible(py, || {
             let begun = Instant::now();
-            let mut test = Interruptible { test: asked.test(&self.assembly)?, looked: begun };
+            let mut test = asked.test(&self.assembly)?;
             let setup = begun.elapsed();
             let core::Replay { tests, pivots, wrong, unanswered, time } =
-                core::replay(&self.steps, &mut test).map_err(raised)?;
+                core::replay(&self.steps, test.as_mut()).map_err(raised)?;
             Ok(Replay { tests, pivots, wrong, unanswered, seconds: (setup + time).as_secs_f64() })
-        })
+        })?
     }
 }
 
@@ -87,29 +87,5 @@ impl Asked {
             "reuse-lemke" => Box::new(ByLemke::new(assembly, true)),
             other => return Err(PyValueError::new_err(format!("unknown method \"{other}\""))),
         })
-    }
-}
-
-/// Looks for Ctrl-C between tests, a few times a second.
-struct Interruptible<'a> {
-    test: Box<dyn StabilityTest + 'a>,
-    looked: Instant,
-}
-
-impl StabilityTest for Interruptible<'_> {
-    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
-        if self.looked.elapsed() > PERIOD {
-            self.looked = Instant::now();
-            Python::attach(|py| py.check_signals()).map_err(|_| PlanError::Interrupted)?;
-        }
-        self.test.test(blocks, added)
-    }
-
-    fn descend(&mut self) {
-        self.test.descend();
-    }
-
-    fn backtrack(&mut self) {
-        self.test.backtrack();
     }
 }

@@ -1,6 +1,11 @@
 //! `Scene` and what it shows of itself.
 
-use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, watch::Watch};
+use crate::{
+    arrays::matrix,
+    coordinates::Coordinates,
+    errors::scene_error,
+    watch::{interruptible, look},
+};
 use drystone::{
     AnyScene, BodyOptions, MassProperties, SceneError, SceneOf,
     contact::find_solid_contacts,
@@ -138,7 +143,7 @@ impl Scene {
     /// The contacts and generators, found without holding Python's lock.
     pub fn assembly(&self, py: Python<'_>, friction_cones: Option<(usize, String)>) -> PyResult<Assembly> {
         let (cones, scene) = (cones(friction_cones)?, self.now());
-        raised(py.detach(|| scene.assembly(cones)))
+        raised(interruptible(py, || scene.assembly(cones))?)
     }
 
     /// The scene, if it is in the plane.
@@ -180,10 +185,10 @@ fn body_at(py: Python<'_>, scene: &AnyScene, index: usize) -> PyResult<Py<PyAny>
 }
 
 fn found(py: Python<'_>, scene: &AnyScene) -> PyResult<drystone::ContactSet> {
-    raised(py.detach(|| match scene {
+    raised(interruptible(py, || match scene {
         AnyScene::Plane(scene) => find_contacts(scene),
         AnyScene::Space(scene) => find_solid_contacts(scene),
-    }))
+    })?)
 }
 
 impl Body {
@@ -353,7 +358,7 @@ impl Scene {
     /// The same scene in space, every block with this thickness.
     fn extruded(&self, py: Python<'_>, depth: f64) -> PyResult<Self> {
         let planar = self.planar()?;
-        let solid = raised(py.detach(|| scenes::extruded(&planar, depth)))?;
+        let solid = raised(interruptible(py, || scenes::extruded(&planar, depth))?)?;
         Ok(Self::of(solid.into()))
     }
 
@@ -378,10 +383,14 @@ impl Scene {
 
     fn bodies(&self, py: Python<'_>) -> PyResult<Vec<Py<PyAny>>> {
         let scene = self.now();
-        (0..scene.len()).map(|index| body_at(py, &scene, index)).collect()
+        let body = |index: usize| {
+            look(py, index)?;
+            body_at(py, &scene, index)
+        };
+        (0..scene.len()).map(body).collect()
     }
 
-    fn contacts(&self, py: Python<'_>) -> PyResult<Vec<Contact>> {
+    fn contacts(&self, py: Python<'_>) -> PyResult<Vec<Py<Contact>>> {
         let scene = self.now();
         let in_plane = scene.dimension() == 2;
         let contact = |c: drystone::Contact| Contact {
@@ -394,7 +403,11 @@ impl Scene {
             gap: c.gap,
             friction: c.friction,
         };
-        Ok(found(py, &scene)?.contacts.into_iter().map(contact).collect())
+        let made = |(k, found): (usize, drystone::Contact)| {
+            look(py, k)?;
+            Py::new(py, contact(found))
+        };
+        found(py, &scene)?.contacts.into_iter().enumerate().map(made).collect()
     }
 
     fn corner_touches(&self, py: Python<'_>) -> PyResult<Vec<(String, String)>> {
@@ -403,24 +416,25 @@ impl Scene {
         Ok(found(py, &scene)?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
     }
 
-    fn to_json(&self) -> String {
-        self.now().to_json()
+    fn to_json(&self, py: Python<'_>) -> PyResult<String> {
+        let scene = self.now();
+        interruptible(py, || scene.to_json())
     }
 
     fn save(&self, py: Python<'_>, path: &str) -> PyResult<()> {
         let scene = self.now();
-        raised(py.detach(|| io::save(&scene, path)))
+        raised(interruptible(py, || io::save(&scene, path))?)
     }
 
     #[staticmethod]
     #[pyo3(signature = (text, source="scene"))]
     fn from_json(py: Python<'_>, text: &str, source: &str) -> PyResult<Self> {
-        raised(py.detach(|| io::from_json(text, source))).map(Self::of)
+        raised(interruptible(py, || io::from_json(text, source))?).map(Self::of)
     }
 
     #[staticmethod]
     fn load(py: Python<'_>, path: &str) -> PyResult<Self> {
-        raised(py.detach(|| io::load(path))).map(Self::of)
+        raised(interruptible(py, || io::load(path))?).map(Self::of)
     }
 
     #[staticmethod]
@@ -429,12 +443,7 @@ impl Scene {
         for (key, value) in parameters {
             values.insert(key.extract::<String>()?, json_value(&value)?);
         }
-        let mut watch = Watch::new(None);
-        let built = py.detach(|| scenes::build_while(name, &values, &mut || watch.no_interrupt()));
-        match watch.error() {
-            Some(error) => Err(error),
-            None => raised(built).map(Self::of),
-        }
+        raised(interruptible(py, || scenes::build(name, &values))?).map(Self::of)
     }
 }
 

@@ -5,6 +5,7 @@ use crate::{
     guard::Guarded,
     scene::Scene,
     verdict::Verdict,
+    watch::interruptible,
 };
 use drystone::Structure as Core;
 use pyo3::{prelude::*, types::PyBytes};
@@ -52,14 +53,16 @@ impl Structure {
     }
 
     /// Takes blocks off, puts blocks on, and says whether the rest stands: (stands, seconds, pivots). The time is of
-    /// everything that this asks for.
+    /// everything that this asks for. If a signal stops it, the blocks are those from before.
     fn step(&self, py: Python<'_>, removed: Vec<usize>, added: Vec<usize>) -> PyResult<(bool, f64, usize)> {
         let mut guard = self.core.write()?;
         let core = &mut *guard;
         let start = Instant::now();
-        let before = core.counts().pivots;
+        let (before, blocks) = (core.counts().pivots, core.blocks().clone());
         change(core, removed, added);
-        let stands = py.detach(|| core.stands()).ok_or_else(|| no_answer(core.blocks().len()))?;
+        let stands = interruptible(py, || core.stands())
+            .inspect_err(|_| core.set(&blocks))?
+            .ok_or_else(|| no_answer(core.blocks().len()))?;
         Ok((stands, start.elapsed().as_secs_f64(), core.counts().pivots - before))
     }
 
@@ -67,7 +70,7 @@ impl Structure {
         let mut guard = self.core.write()?;
         let core = &mut *guard;
         let start = Instant::now();
-        let verdict = py.detach(|| core.check());
+        let verdict = interruptible(py, || core.check())?;
         Verdict::new(py, core.assembly(), &verdict, start.elapsed())
     }
 

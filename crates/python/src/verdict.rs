@@ -1,6 +1,6 @@
 //! `check` and its answer.
 
-use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::Watch};
+use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::interruptible};
 use drystone::{
     check::{Route, check_while},
     formulate::Assembly,
@@ -8,10 +8,7 @@ use drystone::{
     simulate::ContactImpulse,
 };
 use numpy::PyArray2;
-use pyo3::{
-    exceptions::{PyKeyboardInterrupt, PyValueError},
-    prelude::*,
-};
+use pyo3::{exceptions::PyValueError, prelude::*};
 use std::time::{Duration, Instant};
 
 /// The force that body `a` exerts on body `b` at one contact point, in newtons.
@@ -120,11 +117,8 @@ pub fn check(
         }
     };
     let start = Instant::now();
-    let mut watch = Watch::new(None);
     let assembly = scene.assembly(py, cones)?;
-    let checked = py.detach(|| check_while(&assembly, blocks.as_deref(), route, &mut |_| watch.no_interrupt()));
-    match checked.map_err(|error| scene_error(&error))? {
-        Some(verdict) => Verdict::new(py, &assembly, &verdict, start.elapsed()),
-        None => Err(watch.error().unwrap_or_else(|| PyKeyboardInterrupt::new_err(()))),
-    }
+    let checked = interruptible(py, || check_while(&assembly, blocks.as_deref(), route, &mut |_| true))?;
+    let verdict = checked.map_err(|error| scene_error(&error))?.expect("nobody says stop");
+    Verdict::new(py, &assembly, &verdict, start.elapsed())
 }

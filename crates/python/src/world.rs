@@ -7,6 +7,7 @@ use crate::{
     run::{Run, StepRecord},
     scene::{Scene, cones},
     verdict::ContactForce,
+    watch::{Watch, interruptible},
 };
 use drystone::{
     AnyScene,
@@ -15,11 +16,10 @@ use drystone::{
 };
 use numpy::{PyArray1, PyArray2};
 use pyo3::{
-    exceptions::{PyKeyboardInterrupt, PyTypeError, PyValueError},
+    exceptions::{PyTypeError, PyValueError},
     prelude::*,
     types::PyBytes,
 };
-use std::time::{Duration, Instant};
 
 #[pyclass(frozen, module = "drystone._core")]
 pub struct World {
@@ -100,18 +100,18 @@ impl World {
         let (reuse, formulation) = (named_reuse(reuse)?, named_formulation(formulation)?);
         let options = Options { dt, reuse, restitution, formulation, cones: cones(friction_cones)? };
         let scene = scene.now();
-        let made = py.detach(|| {
+        let made = interruptible(py, || {
             Ok(match AnyScene::clone(&scene) {
                 AnyScene::Plane(scene) => AnyWorld::Plane(core::World::new(scene, options)?),
                 AnyScene::Space(scene) => AnyWorld::Space(core::World::new(scene, options)?),
             })
-        });
+        })?;
         Ok(Self::of(raised(made)?))
     }
 
     fn step(&self, py: Python<'_>) -> PyResult<StepRecord> {
         with_world!(&mut *self.core.write()?, world => {
-            let record = py.detach(|| world.step()).map_err(|failure| step_error(&failure))?;
+            let record = interruptible(py, || world.step())?.map_err(|failure| step_error(&failure))?;
             Ok(StepRecord::new(py, record, &world.names().collect::<Vec<_>>()))
         })
     }
@@ -119,10 +119,12 @@ impl World {
     /// Makes steps; `progress` is called with (steps made, steps in all) a few times a second.
     #[pyo3(signature = (steps, forces=false, progress=None))]
     fn run(&self, py: Python<'_>, steps: usize, forces: bool, progress: Option<Py<PyAny>>) -> PyResult<Run> {
-        let mut watch = Watch { progress, last: Instant::now(), error: None };
+        let mut watch = Watch::new(progress);
+        let signals = watch.signals.clone();
         with_world!(&mut *self.core.write()?, world => {
-            let run = py.detach(|| core::run(world, steps, forces, |made| watch.go_on(made, steps)));
-            match watch.error {
+            let run = signals.run(py, || core::run(world, steps, forces, |made| watch.go_on(|| (made, steps))));
+            let run = run.ok_or_else(|| signals.error())?;
+            match watch.error(py) {
                 Some(error) => Err(error),
                 None => Run::new(py, &run, world.options().dt, world.names().count()),
             }
@@ -238,11 +240,17 @@ impl World {
     }
 
     /// Takes up the bodies that this scene has beyond the world's.
-    fn extend(&self, scene: &Scene) -> PyResult<()> {
+    fn extend(&self, py: Python<'_>, scene: &Scene) -> PyResult<()> {
         let scene = AnyScene::clone(&scene.now());
         match &mut *self.core.write()? {
-            AnyWorld::Plane(world) => raised(world.extend(scene.in_plane().map_err(|error| scene_error(&error))?)),
-            AnyWorld::Space(world) => raised(world.extend(scene.in_space().map_err(|error| scene_error(&error))?)),
+            AnyWorld::Plane(world) => {
+                let scene = scene.in_plane().map_err(|error| scene_error(&error))?;
+                raised(interruptible(py, || world.extend(scene))?)
+            }
+            AnyWorld::Space(world) => {
+                let scene = scene.in_space().map_err(|error| scene_error(&error))?;
+                raised(interruptible(py, || world.extend(scene))?)
+            }
         }
     }
 
@@ -275,36 +283,5 @@ impl World {
 
     fn options(&self) -> PyResult<Options> {
         Ok(with_world!(&*self.core.read()?, world => world.options()))
-    }
-}
-
-/// Looks for Ctrl-C and reports progress, a few times a second.
-struct Watch {
-    progress: Option<Py<PyAny>>,
-    last: Instant,
-    error: Option<PyErr>,
-}
-
-const PERIOD: Duration = Duration::from_millis(100);
-
-impl Watch {
-    fn go_on(&mut self, made: usize, steps: usize) -> bool {
-        if self.last.elapsed() < PERIOD {
-            return true;
-        }
-        self.last = Instant::now();
-        Python::attach(|py| {
-            if py.check_signals().is_err() {
-                return false; // Ctrl-C: what is done is the answer
-            }
-            let Some(function) = &self.progress else { return true };
-            let error = match function.call1(py, (made, steps)) {
-                Ok(_) => return true,
-                Err(error) => error,
-            };
-            // Ctrl-C within the callback: what is done is the answer, as above.
-            self.error = Some(error).filter(|error| !error.is_instance_of::<PyKeyboardInterrupt>(py));
-            false
-        })
     }
 }

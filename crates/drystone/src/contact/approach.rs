@@ -13,6 +13,7 @@
 use super::{ContactId, broad_phase, pair_tolerance, tolerance_of};
 use crate::{
     geometry::{Numbers, Shape, norm},
+    interrupt::poll,
     scene::{Body, SceneOf},
 };
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -134,6 +135,9 @@ impl<S: Approaching> Default for ApproachFinder<S> {
     }
 }
 
+/// Operations to look at a pair, about.
+const PAIR: usize = 1000;
+
 impl<S: Approaching> ApproachFinder<S> {
     /// Finds every approach within the bodies' travel. Pairs of which neither the place nor the travel has changed since the
     /// last call are not looked at again.
@@ -156,6 +160,7 @@ impl<S: Approaching> ApproachFinder<S> {
         let before = std::mem::take(&mut self.pairs);
         let mut known = before.into_iter().peekable();
         for pair in broad_phase::pairs_within(bodies, |i| reach(scene, i, &travel[i])) {
+            poll(PAIR);
             while known.next_if(|old| old.bodies < pair).is_some() {}
             let old = known.next_if(|old| old.bodies == pair);
             let kept = old.filter(|_| pair.iter().all(|&i| !changed[i]));

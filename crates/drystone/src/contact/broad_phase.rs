@@ -6,11 +6,15 @@
 use super::tolerance_of;
 use crate::{
     geometry::{Numbers, Shape},
+    interrupt::poll,
     scene::{Body, SceneOf},
 };
 
 /// Lower and upper corner, world coordinates, metres.
 type Bounds<V> = [V; 2];
+
+/// Operations to compare two boxes, about.
+const COMPARISON: usize = 8;
 
 /// Candidate pairs, the lower index first, sorted. Pairs of fixed blocks are left out.
 ///
@@ -37,7 +41,9 @@ fn sweep<V: Numbers>(boxes: &[Bounds<V>], fixed: impl Fn(usize) -> bool) -> Vec<
     order.sort_unstable_by(|&i, &j| low(i)[along].total_cmp(&low(j)[along]).then(i.cmp(&j)));
     let mut pairs = Vec::new();
     for (place, &i) in order.iter().enumerate() {
+        let mut compared = 1;
         for &j in &order[place + 1..] {
+            compared += 1;
             if low(j)[along] > high(i)[along] {
                 break;
             }
@@ -46,6 +52,7 @@ fn sweep<V: Numbers>(boxes: &[Bounds<V>], fixed: impl Fn(usize) -> bool) -> Vec<
                 pairs.push([i.min(j), i.max(j)]);
             }
         }
+        poll(COMPARISON * compared);
     }
     pairs.sort_unstable();
     pairs

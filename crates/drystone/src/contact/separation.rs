@@ -4,7 +4,10 @@
 //! each. Of the pairs of edges only those count whose normals' arcs cross on the unit sphere: the others are no edge of the
 //! Minkowski difference (D. Gregorius, "The separating axis test between convex polyhedra", 2013).
 
-use crate::geometry::{Edge, Polyhedron, Vector3};
+use crate::{
+    geometry::{Edge, Polyhedron, Vector3},
+    interrupt::poll,
+};
 
 /// A plane that parts two polyhedra best, or along which their overlap is least.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +51,7 @@ pub(super) fn planes(a: &Polyhedron, b: &Polyhedron, offset: Vector3) -> Vec<Sep
 
 fn greatest(reference: &Polyhedron, other: &Polyhedron, offset: Vector3) -> (usize, f64) {
     let mut best = (0, f64::NEG_INFINITY);
+    poll(reference.faces().len() * other.vertices().len());
     for (face, (normal, corners)) in reference.normals().iter().zip(reference.faces()).enumerate() {
         let own = normal.dot(reference.vertices()[corners[0]] - offset);
         let nearest = other.vertices().iter().map(|v| normal.dot(*v)).fold(f64::INFINITY, f64::min);
@@ -78,9 +82,18 @@ pub(super) fn along_edges(a: &Polyhedron, b: &Polyhedron, offset: Vector3) -> Op
     best
 }
 
+/// Operations to look at a pair of edges, about, and after how many there is a question whether to go on.
+const CROSSING: usize = 16;
+const LONG: usize = 1 << 16;
+
 /// The pairs of edges that span a face of the Minkowski difference, with its unit normal out of `a`.
 fn for_each_crossing<'a>(a: &'a Polyhedron, b: &'a Polyhedron, mut found: impl FnMut(&'a Edge, &'a Edge, Vector3)) {
+    let mut work = 0;
     for edge_a in a.edges() {
+        work += CROSSING * b.edges().len();
+        if work > LONG {
+            poll(std::mem::take(&mut work));
+        }
         let along_a = direction(a, edge_a);
         let [a0, a1] = edge_a.faces.map(|face| a.normals()[face]);
         for edge_b in b.edges() {
@@ -97,6 +110,7 @@ fn for_each_crossing<'a>(a: &'a Polyhedron, b: &'a Polyhedron, mut found: impl F
             }
         }
     }
+    poll(work);
 }
 
 /// How far b lies beyond a along a direction, metres.

@@ -3,6 +3,7 @@
 use super::{Contact, ContactId, ContactSet, Feature, covered::MetBorder, pair_tolerance, rounding::Parting};
 use crate::error::SceneError;
 use crate::geometry::Shape;
+use crate::interrupt::poll;
 use crate::scene::SceneOf;
 
 /// How two shapes touch.
@@ -35,6 +36,9 @@ pub(super) struct Pressing {
     pub gap: f64,
 }
 
+/// Operations to look at a pair of blocks, about.
+const PAIR: usize = 1000;
+
 /// The contacts of the candidate pairs of a scene; `touch` is given a pair and its tolerance, metres.
 ///
 /// # Errors
@@ -49,6 +53,7 @@ pub(super) fn contacts_of<S: Shape>(
     let mut borders: Vec<(usize, MetBorder)> = Vec::new();
     let mut deepest: Option<([usize; 2], f64)> = None;
     for &[a, b] in pairs {
+        poll(PAIR);
         let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
         let contact = |p: Pressing| Contact {
             id: ContactId { bodies: [a, b], feature: p.feature },

@@ -12,6 +12,7 @@ use crate::{
     contact::{Contact, ContactSet},
     error::SceneError,
     geometry::{dot, length},
+    interrupt::poll,
     scene::SceneOf,
     suggest::nearest,
 };
@@ -19,6 +20,9 @@ use drystone_lcp::{
     Problem,
     cone::{Columns, ConeSolver},
 };
+
+/// Operations to make a generator, or to write it down, about.
+const GENERATOR: usize = 200;
 
 /// Contacts, generators and loads of a scene.
 #[derive(Debug, Clone)]
@@ -92,6 +96,7 @@ impl Assembly {
         let spanning = Bodies { bodies: &self.bodies, movable: |body: usize| block_of[body] };
         self.axis_of = vec![None; self.contacts.contacts.len()];
         for (index, contact) in self.contacts.contacts.iter().enumerate() {
+            poll(GENERATOR);
             let edges = self.edges(contact).into_iter();
             self.generators.extend(edges.map(|direction| spanning.generator(index, contact, direction)));
             // An axis adds no force that the edges do not have, but one number instead of several says that a contact is
@@ -268,6 +273,7 @@ impl Assembly {
     ) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for generator in generators {
+            poll(GENERATOR);
             for wrench in &generator.wrenches {
                 let first = self.components.len() * wrench.block;
                 let entries = self.components.iter().map(|&k| wrench.value[k]).enumerate();

@@ -18,6 +18,7 @@ use super::{
     PoseInSpace, Solid,
     vectors::{cross, dot, length, minus, unit},
 };
+use crate::interrupt::poll;
 
 /// How far a direction may be from lying in a face, radians, to slide along it: far above the rounding of normals, and less
 /// than a contact tolerance on the way of a thousand blocks.
@@ -89,6 +90,7 @@ impl Piece {
         if self.is_far_past(other, direction) {
             return false;
         }
+        poll(self.edges.len() * other.edges.len() * (self.vertices.len() + other.vertices.len()));
         let parts = |n: [f64; 3]| dot(n, direction) <= SLIDING && self.gap(other, n) >= -tolerance;
         let back = direction.map(|d| -d);
         let sideways = self.edges.iter().chain(&other.edges).filter_map(|&edge| unit(cross(edge, direction)));

@@ -25,8 +25,9 @@ pub fn save(scene: &AnyScene, path: impl AsRef<Path>) -> Result<(), SceneError> 
         let (file, reason) = (path.display().to_string(), error.to_string());
         FileError::Write { file, reason }
     };
+    let text = scene.to_json(); // if that is stopped on the way, there is no file yet
     let (temporary, file) = create_beside(path).map_err(unwritten)?;
-    let result = fill(file, &scene.to_json()).and_then(|()| fs::rename(&temporary, path));
+    let result = fill(file, &text).and_then(|()| fs::rename(&temporary, path));
     if result.is_err() {
         // The reason to report is the first error; a leftover is only untidy.
         let _ = fs::remove_file(&temporary);

@@ -7,6 +7,7 @@ use super::{FORMAT, VERSION, weight};
 use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
 use crate::geometry::{Polygon, Solid};
+use crate::interrupt::apart;
 use crate::scene::{BodyOptions, SceneOf};
 use serde_json::Value;
 
@@ -16,12 +17,17 @@ const SCENE_FIELDS: [&str; 7] =
 /// Fields of a body besides its shape, its place and its weight.
 const BODY_FIELDS: [&str; 3] = ["name", "friction", "fixed"];
 
+/// Operations to parse a byte, about.
+const PARSING: usize = 32;
+
 /// Reads a scene from the text of a scene file. `file` is the name by which errors call it.
 ///
 /// Every error is a [`SceneError::File`] that says file, place and fix; a body that is
 /// well-formed but not valid is [`FileError::Invalid`] around the reason.
 pub fn from_json(text: &str, file: &str) -> Result<AnyScene, SceneError> {
-    let Unique(document) = serde_json::from_str(text).map_err(|error| syntax(file, text, &error))?;
+    let owned = text.to_owned();
+    let parsed = apart(PARSING * text.len(), move || serde_json::from_str::<Unique>(&owned));
+    let Unique(document) = parsed.map_err(|error| syntax(file, text, &error))?;
     match dimension(file, &document)? {
         2 => read::<Polygon>(file, &document).map(AnyScene::Plane),
         _ => read::<Solid>(file, &document).map(AnyScene::Space),

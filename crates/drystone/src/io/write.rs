@@ -3,6 +3,7 @@
 use super::shapes::{PoseRecord, ShapeRecord, Stored};
 use super::weight::{self, WeightRecord};
 use super::{FORMAT, VERSION};
+use crate::interrupt::poll;
 use crate::scene::{Body, SceneOf};
 use serde::Serialize;
 
@@ -42,7 +43,11 @@ pub(crate) fn to_json<S: Stored>(scene: &SceneOf<S>) -> String {
     )
 }
 
+/// Operations to write a body, about.
+const BODY: usize = 4000;
+
 fn body_line<S: Stored>(body: &Body<S>) -> String {
+    poll(BODY);
     let (shape, pose) = S::record(body);
     let weight = weight::record(body);
     let record = BodyRecord { name: &body.name, shape, pose, weight, friction: body.friction, fixed: body.fixed };

@@ -6,9 +6,15 @@
 
 use super::collapse::Collapse;
 use super::stability::{FromScratch, PlanError, StabilityTest, TestOutcome};
+use super::whole::Stop;
 use crate::formulate::{Assembly, BlockSet};
-use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
-use std::collections::HashMap;
+use crate::interrupt::{Interrupt, poll_now};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::{
+    collections::HashMap,
+    sync::mpsc::{RecvTimeoutError, channel},
+    time::Duration,
+};
 
 /// Fewest blocks in a sub-assembly whose test is worth a thread: smaller ones take microseconds.
 const WORTH_A_THREAD: usize = 16;
@@ -29,9 +35,43 @@ impl<'a> Ahead<'a> {
     /// Analyses the complete assembly. None if so many threads cannot be had.
     pub fn new(assembly: &'a Assembly, threads: usize) -> Option<Self> {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build().ok()?;
-        let tests = pool.install(|| (0..threads).into_par_iter().map(|_| FromScratch::new(assembly)).collect());
+        let tests = on_threads(&pool, vec![assembly; threads], FromScratch::new);
         Some(Self { pool, tests, answers: HashMap::new(), collapse: None })
     }
+}
+
+/// Time between two looks whether to stop while only other threads work.
+const PERIOD: Duration = Duration::from_millis(10);
+
+/// Does each piece of work on a thread of the pool; the answers are in the order of what was given. May be stopped, like any work
+/// of the caller's.
+fn on_threads<T: Send, A: Send>(pool: &ThreadPool, given: Vec<T>, work: impl Fn(T) -> A + Sync) -> Vec<A> {
+    let stop = Stop::default();
+    let (interrupt, work, (tell, told)) = (stop.interrupt(), &work, channel());
+    let mut answers: Vec<Option<A>> = given.iter().map(|_| None).collect();
+    pool.in_place_scope(|scope| {
+        for (k, one) in given.into_iter().enumerate() {
+            let (interrupt, tell) = (interrupt.clone(), tell.clone());
+            scope.spawn(move |_| {
+                if let Some(answer) = interrupt.run(|| work(one)) {
+                    tell.send((k, answer)).ok(); // it is waited for until all have ended
+                }
+            });
+        }
+        drop(tell);
+        loop {
+            match told.recv_timeout(PERIOD) {
+                Ok((k, answer)) => answers[k] = Some(answer),
+                Err(RecvTimeoutError::Disconnected) => break,
+                Err(RecvTimeoutError::Timeout) if Interrupt::current().stops() => stop.stop(),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
+    });
+    if answers.iter().any(Option::is_none) {
+        poll_now();
+    }
+    answers.into_iter().map(|answer| answer.expect("nothing else stops them")).collect()
 }
 
 /// The test whose answer only depends on `blocks`, and the collapse if they fall.
@@ -50,10 +90,10 @@ impl StabilityTest for Ahead<'_> {
             return;
         }
         let sets: Vec<BlockSet> = [next].into_iter().chain(likely).take(self.tests.len()).collect();
-        let tests = &mut self.tests;
-        self.answers.extend(self.pool.install(|| {
-            let each = tests.par_iter_mut().zip(sets).with_max_len(1);
-            each.map(|(test, set)| (set.clone(), answer(test, &set))).collect::<Vec<_>>()
+        let each: Vec<_> = self.tests.iter_mut().zip(sets).collect();
+        self.answers.extend(on_threads(&self.pool, each, |(test, set)| {
+            let answer = answer(test, &set);
+            (set, answer)
         }));
     }
 

@@ -25,7 +25,7 @@ use std::{sync::atomic::AtomicBool, time::Instant};
 /// Runs something under a clock with so many tests.
 fn within<T>(tests: usize, run: impl FnOnce(&mut Clock<'_>) -> T) -> T {
     let limits = Limits { tests: Some(tests), ..Limits::default() };
-    run(&mut Clock { limits, start: Instant::now(), monitor: &mut Quiet, whole_falls: &AtomicBool::new(false) })
+    run(&mut Clock::new(limits, &mut Quiet, &AtomicBool::new(false)))
 }
 
 /// What two searches in turn find, the first turn being so long: the order in which blocks go up, if there is one.

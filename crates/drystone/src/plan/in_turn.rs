@@ -114,8 +114,9 @@ fn take_turn(
     let (limits, whole_falls) = (clock.limits, clock.whole_falls);
     let end = search.records.len().saturating_add(turn);
     let tests = Some(limits.tests.map_or(end, |most| most.min(end)));
-    let mut clock =
-        Clock { limits: Limits { tests, ..limits }, start: clock.start, monitor: clock.monitor, whole_falls };
+    let (start, interrupt) = (clock.start, clock.interrupt.clone());
+    let limits_of_turn = Limits { tests, ..limits };
+    let mut clock = Clock { limits: limits_of_turn, start, monitor: clock.monitor, interrupt, whole_falls };
     let ended = search.run(test, &mut clock);
     let goes_on = matches!(ended, Ok(Outcome::TestLimit)) && limits.tests.is_none_or(|most| end < most);
     (!goes_on).then_some(ended)

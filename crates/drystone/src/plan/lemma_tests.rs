@@ -130,7 +130,8 @@ pub(super) fn growable(assembly: &Assembly) -> Vec<bool> {
 fn searched(assembly: &Assembly, memory: &mut dyn Memory) -> (Outcome, Vec<usize>, usize) {
     let touching = Touching::new(assembly);
     let limits = Limits { tests: Some(5000), ..Limits::default() };
-    let mut clock = Clock { limits, start: Instant::now(), monitor: &mut Quiet, whole_falls: &AtomicBool::new(false) };
+    let (mut quiet, never) = (Quiet, AtomicBool::new(false));
+    let mut clock = Clock::new(limits, &mut quiet, &never);
     let mut upward = Upward::new(&touching);
     let mut search = Search::new(&touching, None, memory, &mut upward);
     let outcome = search.run(&mut Reuse::new(assembly), &mut clock).unwrap();

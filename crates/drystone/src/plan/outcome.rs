@@ -1,8 +1,11 @@
 //! What a search is told, and what it answers.
 
 use super::{clear_path::Blocked, stability::TestOutcome};
-use crate::check::Verdict;
-use std::{thread, time::Duration};
+use crate::{check::Verdict, interrupt::Interrupt};
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
 
 /// Budgets of a search, without which it goes on to the end, and how it goes about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +29,22 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// Stops what began at `start` when its time is over.
+    pub fn interrupt(&self, start: Instant) -> Interrupt {
+        self.time.and_then(|time| start.checked_add(time)).map_or_else(Interrupt::default, Interrupt::at)
+    }
+
+    /// How something that began at `start` and was stopped has ended.
+    pub(super) fn stopped(&self, start: Instant) -> Outcome {
+        let over = self.time.is_some_and(|time| start.elapsed() >= time);
+        if over { Outcome::TimeLimit } else { Outcome::Interrupted }
+    }
+
+    /// For what comes after something that began at `start`.
+    pub fn after(self, start: Instant) -> Self {
+        Self { time: self.time.map(|time| time.saturating_sub(start.elapsed())), ..self }
+    }
+
     /// Threads to use.
     pub fn threads(&self) -> usize {
         self.threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, Into::into))
@@ -176,6 +195,25 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// What there is to say if the search was stopped before it began.
+    pub fn stopped(outcome: Outcome, total: Duration) -> Self {
+        Self {
+            outcome,
+            order: Vec::new(),
+            reached: Vec::new(),
+            held: Vec::new(),
+            directions: Vec::new(),
+            blocked: Vec::new(),
+            falls_next: Vec::new(),
+            records: Vec::new(),
+            shortcuts: 0,
+            setup: total,
+            total,
+            whole: None,
+            whole_time: Duration::ZERO,
+        }
+    }
+
     /// Pivots of all tests.
     pub fn pivots(&self) -> usize {
         self.records.iter().map(|record| record.outcome.pivots).sum()

@@ -16,6 +16,7 @@ use crate::{
     check::{Verdict, check_blocks},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockSet},
+    interrupt::Interrupt,
     scene::SceneOf,
 };
 use std::{
@@ -49,7 +50,10 @@ pub fn plan_under<S: Assemble>(
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
     let start = Instant::now();
-    let mut plan = plan_assembly_under(scene, &Assembly::new(scene)?, test, conditions, limits, monitor)?;
+    let Some(assembly) = limits.interrupt(start).run(|| Assembly::new(scene)) else {
+        return Ok(Plan::stopped(limits.stopped(start), start.elapsed()));
+    };
+    let mut plan = plan_assembly_under(scene, &assembly?, test, conditions, limits.after(start), monitor)?;
     plan.total = start.elapsed();
     Ok(plan)
 }
@@ -64,7 +68,7 @@ pub fn plan_assembly(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
-    with_named(assembly, test, limits, |test| plan_with(assembly, test, limits, monitor))
+    with_named(assembly, test, limits, |test, limits| plan_with(assembly, test, limits, monitor))
 }
 
 /// [`plan_under`] of an assembly whose contacts are known; it is the scene's.
@@ -79,24 +83,29 @@ pub fn plan_assembly_under<S: Assemble>(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
-    with_named(assembly, test, limits, |test| plan_with_under(scene, assembly, test, conditions, limits, monitor))
+    with_named(assembly, test, limits, |test, limits| {
+        plan_with_under(scene, assembly, test, conditions, limits, monitor)
+    })
 }
 
-/// Plans with a test by name, whose setting up counts.
+/// Plans with a test by name, whose setting up counts, and within what that leaves of the limits.
 fn with_named(
     assembly: &Assembly,
     test: Test,
     limits: Limits,
-    plan: impl FnOnce(&mut dyn StabilityTest) -> Result<Plan, PlanError>,
+    plan: impl FnOnce(&mut dyn StabilityTest, Limits) -> Result<Plan, PlanError>,
 ) -> Result<Plan, PlanError> {
-    let setup = Instant::now();
-    let mut test: Box<dyn StabilityTest + '_> = match test {
-        Test::Lcp => from_scratch(assembly, limits.threads()),
-        Test::Reuse => Box::new(Reuse::new(assembly)),
-        Test::ReuseDantzig => Box::new(ReuseDantzig::new(assembly)),
-    };
-    let setup = setup.elapsed();
-    let mut plan = plan(test.as_mut())?;
+    let start = Instant::now();
+    let set_up = limits.interrupt(start).run(|| -> Box<dyn StabilityTest + '_> {
+        match test {
+            Test::Lcp => from_scratch(assembly, limits.threads()),
+            Test::Reuse => Box::new(Reuse::new(assembly)),
+            Test::ReuseDantzig => Box::new(ReuseDantzig::new(assembly)),
+        }
+    });
+    let Some(mut test) = set_up else { return Ok(Plan::stopped(limits.stopped(start), start.elapsed())) };
+    let setup = start.elapsed();
+    let mut plan = plan(test.as_mut(), limits.after(start))?;
     plan.setup = setup;
     plan.total += setup;
     Ok(plan)
@@ -159,9 +168,13 @@ fn search_ways_out(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
-    if !paths.locked().is_empty() {
-        paths.try_faces();
+    let start = Instant::now();
+    match limits.interrupt(start).run(|| paths.locked()) {
+        None => return Ok(Plan::stopped(limits.stopped(start), start.elapsed())),
+        Some(locked) if locked.is_empty() => {}
+        Some(_) => drop(paths.try_faces()),
     }
+    let limits = limits.after(start);
     let first = search_under(assembly, test, hands, Some(&paths), limits, monitor)?;
     let blocked = !first.blocked.is_empty() && matches!(first.outcome, Outcome::NoOrder | Outcome::Undecided);
     if !blocked || !paths.try_faces() {
@@ -202,11 +215,14 @@ fn search_under(
 ) -> Result<Plan, PlanError> {
     let start = Instant::now();
     let whole_falls = AtomicBool::new(false);
-    let mut clock = Clock { limits, start, monitor, whole_falls: &whole_falls };
+    let mut clock = Clock::new(limits, monitor, &whole_falls);
     let touching = Touching::new(assembly);
-    let locked = paths.map(Paths::locked).filter(|locked| !locked.is_empty());
+    let locked = match paths.map(|paths| clock.run(|| Ok(paths.locked()))).transpose() {
+        Err(PlanError::Interrupted) => return Ok(Plan::stopped(clock.stopped(), start.elapsed())),
+        locked => locked?.filter(|locked| !locked.is_empty()),
+    };
     let mut found = match &locked {
-        Some(_) => check_locked(assembly),
+        Some(_) => check_locked(assembly, &clock),
         None => search_unheld(assembly, &touching, paths, test, &mut clock)?,
     };
     if found.outcome == Outcome::NoOrder && hands > 0 {
@@ -252,17 +268,21 @@ fn ways(paths: &Paths<'_>, found: &Found, locked: Option<BlockSet>) -> (Vec<[f64
 }
 
 /// What there is to say of an assembly with blocks that lock one another in.
-fn check_locked(assembly: &Assembly) -> Found {
+fn check_locked(assembly: &Assembly, clock: &Clock<'_>) -> Found {
     let begin = Instant::now();
-    let whole = check_blocks(assembly, &BlockSet::full(assembly.blocks()));
+    let whole = clock.interrupt.run(|| check_blocks(assembly, &BlockSet::full(assembly.blocks())));
     Found {
-        outcome: if whole.stable { Outcome::Locked } else { Outcome::WholeFalls },
+        outcome: match &whole {
+            None => clock.stopped(),
+            Some(whole) if whole.stable => Outcome::Locked,
+            Some(_) => Outcome::WholeFalls,
+        },
         reached: Vec::new(),
         held: Vec::new(),
         falls_next: Vec::new(),
         records: Vec::new(),
         shortcuts: 0,
-        whole: Some(whole),
+        whole,
         whole_time: begin.elapsed(),
     }
 }
@@ -285,7 +305,7 @@ fn search_unheld(
     let InTurn { best: mut reached, mut records, mut shortcuts, .. } = search;
     let outcome = match (&whole, searched) {
         (Some(whole), _) if !whole.stable => Outcome::WholeFalls,
-        (_, Err(PlanError::Interrupted)) => Outcome::Interrupted,
+        (_, Err(PlanError::Interrupted)) => clock.stopped(),
         (_, ended) => ended?,
     };
     let falls_next = match outcome {
@@ -294,12 +314,25 @@ fn search_unheld(
             (reached, records, shortcuts) = (Vec::new(), Vec::new(), 0);
             Vec::new()
         }
-        Outcome::NoOrder => dead_end(&mut Reuse::new(assembly), touching, paths, &mut reached)?,
+        Outcome::NoOrder => {
+            until_stopped(clock.run(|| dead_end(&mut Reuse::new(assembly), touching, paths, &mut reached)))?
+        }
         _ => Vec::new(),
     };
     let held = vec![Vec::new(); reached.len()];
     Ok(Found { outcome, reached, held, falls_next, records, shortcuts, whole, whole_time })
 }
+
+/// Nothing of what was stopped: the answer stays, but what would be said about it.
+fn until_stopped<T: Default>(done: Result<T, PlanError>) -> Result<T, PlanError> {
+    match done {
+        Err(PlanError::Interrupted) => Ok(T::default()),
+        done => done,
+    }
+}
+
+/// Time for putting up once more what was found when a search is stopped: less than what anybody waits for after Ctrl-C.
+const LATE: Duration = Duration::from_millis(200);
 
 /// The search with blocks held, after one that found that there is no order without.
 fn search_with_hands(
@@ -310,7 +343,10 @@ fn search_with_hands(
     clock: &mut Clock<'_>,
     found: &mut Found,
 ) -> Result<(), PlanError> {
-    let mut test = Holding::new(assembly, hands);
+    let Ok(mut test) = clock.run(|| Ok(Holding::new(assembly, hands))) else {
+        found.outcome = clock.stopped();
+        return Ok(());
+    };
     let mut memory = memory_for(touching, clock.limits, &test);
     let mut upward = Upward::new(touching);
     let mut search = Search::new(touching, paths, memory.as_mut(), &mut upward);
@@ -320,7 +356,7 @@ fn search_with_hands(
     (found.reached, found.records) = (reached, records);
     found.shortcuts += memory.shortcuts();
     found.outcome = match ended {
-        Err(PlanError::Interrupted) => Outcome::Interrupted,
+        Err(PlanError::Interrupted) => clock.stopped(),
         Ok(Outcome::NoOrder) if test.undecided() > 0 => Outcome::Undecided,
         ended => ended?,
     };
@@ -328,11 +364,22 @@ fn search_with_hands(
         Outcome::Found => Vec::new(),
         Outcome::NoOrder | Outcome::Undecided => {
             test = Holding::new(assembly, hands);
-            dead_end(&mut test, touching, paths, &mut found.reached)?
+            until_stopped(clock.run(|| dead_end(&mut test, touching, paths, &mut found.reached)))?
         }
-        _ => {
-            test = Holding::new(assembly, hands);
-            put_up(&mut test, touching, &found.reached)?;
+        outcome => {
+            let mut again = None;
+            let put_up = || put_up(again.insert(Holding::new(assembly, hands)), touching, &found.reached);
+            match outcome {
+                Outcome::TestLimit => clock.run(put_up).map(drop),
+                // Who stopped the search would stop this too.
+                _ => Interrupt::at(Instant::now() + LATE).instead(put_up).transpose().map(drop),
+            }
+            .or_else(|error| until_stopped(Err(error)))?;
+            found.reached.truncate(again.as_ref().map_or(0, |test| test.way().count()));
+            match again {
+                Some(put_up) => test = put_up,
+                None => return Ok(()),
+            }
             Vec::new()
         }
     };

@@ -6,7 +6,7 @@ use super::memory::{Back, Memory, Place};
 use super::outcome::{Limits, Monitor, Outcome, Progress, Stage, TestRecord};
 use super::stability::{PlanError, StabilityTest};
 use super::touching::Touching;
-use crate::formulate::BlockSet;
+use crate::{formulate::BlockSet, interrupt::Interrupt};
 use std::{
     iter::successors,
     sync::atomic::{AtomicBool, Ordering},
@@ -21,11 +21,29 @@ pub(super) struct Clock<'a> {
     pub limits: Limits,
     pub start: Instant,
     pub monitor: &'a mut dyn Monitor,
+    /// Stops a test, or other long work, when the time is over.
+    pub interrupt: Interrupt,
     /// Set when a check beside the search has found that the complete assembly falls.
     pub whole_falls: &'a AtomicBool,
 }
 
-impl Clock<'_> {
+impl<'a> Clock<'a> {
+    /// Begins now.
+    pub fn new(limits: Limits, monitor: &'a mut dyn Monitor, whole_falls: &'a AtomicBool) -> Self {
+        let start = Instant::now();
+        Self { limits, start, monitor, interrupt: limits.interrupt(start), whole_falls }
+    }
+
+    /// Does some long work unless the time is over, or somebody stops it.
+    pub fn run<T>(&self, work: impl FnOnce() -> Result<T, PlanError>) -> Result<T, PlanError> {
+        self.interrupt.run(work).unwrap_or(Err(PlanError::Interrupted))
+    }
+
+    /// How a search ended in which some work was stopped.
+    pub fn stopped(&self) -> Outcome {
+        self.limits.stopped(self.start)
+    }
+
     /// Why to stop, if there is a reason.
     pub fn stops(&mut self, progress: Progress) -> Option<Outcome> {
         if self.whole_falls.load(Ordering::Relaxed) {
@@ -86,7 +104,8 @@ impl<'a> Search<'a> {
                 }
                 return Ok(Outcome::NoOrder);
             };
-            if let Some(blame) = self.paths.and_then(|paths| paths.blame(added, &self.current, &self.position)) {
+            let blame = |paths: &Paths<'_>| clock.run(|| Ok(paths.blame(added, &self.current, &self.position)));
+            if let Some(blame) = self.paths.map(blame).transpose()?.flatten() {
                 if !self.step_back_from_blocked(added, blame, test) {
                     return Ok(Outcome::NoOrder);
                 }
@@ -109,7 +128,7 @@ impl<'a> Search<'a> {
                     }
                 }
             }
-            if last || !known && self.stands(test, added)? {
+            if last || !known && self.stands(test, clock, added)? {
                 self.descend(added);
                 continue;
             }
@@ -134,10 +153,12 @@ impl<'a> Search<'a> {
     }
 
     /// Tests the current sub-assembly, which holds `added`.
-    fn stands(&mut self, test: &mut dyn StabilityTest, added: usize) -> Result<bool, PlanError> {
+    fn stands(&mut self, test: &mut dyn StabilityTest, clock: &Clock<'_>, added: usize) -> Result<bool, PlanError> {
         let begin = Instant::now();
-        test.foresee(&mut self.likely());
-        let outcome = test.test(&self.current, added)?;
+        let outcome = clock.run(|| {
+            test.foresee(&mut self.likely());
+            test.test(&self.current, added)
+        })?;
         let time = begin.elapsed();
         self.records.push(TestRecord { size: self.placed.len() + 1, outcome, time });
         let place = Place { placed: &self.placed, position: &self.position, current: &self.current };

@@ -5,11 +5,13 @@ use super::outcome::{Limits, Outcome, Progress, Stage};
 use super::search::Clock;
 use super::stability::{PlanError, StabilityTest};
 use crate::{
-    check::{Verdict, check_blocks_while},
+    check::{Verdict, check_blocks, check_blocks_while},
     formulate::{Assembly, BlockSet},
+    interrupt::Interrupt,
 };
 use std::{
     sync::{
+        Arc,
         atomic::{AtomicBool, Ordering},
         mpsc::{RecvTimeoutError, channel},
     },
@@ -32,6 +34,30 @@ pub(super) struct Checked {
     pub searched: Result<Outcome, PlanError>,
 }
 
+/// Stops a thread, at the latest when nobody is there any more who could.
+#[derive(Debug, Default)]
+pub(super) struct Stop {
+    flag: Arc<AtomicBool>,
+}
+
+impl Stop {
+    /// For the thread.
+    pub fn interrupt(&self) -> Interrupt {
+        let flag = Arc::clone(&self.flag);
+        Interrupt::new(move || flag.load(Ordering::Relaxed))
+    }
+
+    pub fn stop(&self) {
+        self.flag.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Stop {
+    fn drop(&mut self) {
+        self.stop();
+    }
+}
+
 /// Whether the check runs beside the search.
 pub(super) fn check_beside(limits: Limits, blocks: usize) -> bool {
     blocks >= WORTH_A_THREAD && limits.threads() > 1
@@ -46,6 +72,7 @@ pub(super) fn check_before_search(
 ) -> Checked {
     let blocks = assembly.blocks();
     let (begin, mut stopped) = (Instant::now(), Outcome::WholeFalls);
+    let interrupt = clock.interrupt.clone();
     let mut go_on = |placed| match clock.stops(Progress { stage: Stage::Whole, tests: 0, placed, blocks }) {
         None => true,
         Some(outcome) => {
@@ -53,7 +80,11 @@ pub(super) fn check_before_search(
             false
         }
     };
-    let whole = check_blocks_while(assembly, &BlockSet::full(blocks), &mut go_on);
+    let whole = interrupt.run(|| check_blocks_while(assembly, &BlockSet::full(blocks), &mut go_on));
+    let whole = whole.unwrap_or_else(|| {
+        stopped = clock.stopped();
+        None
+    });
     let time = begin.elapsed();
     let searched = match &whole {
         Some(whole) if whole.stable => search.run(test, clock),
@@ -70,15 +101,16 @@ pub(super) fn check_beside_search(
     test: &mut dyn StabilityTest,
     clock: &mut Clock<'_>,
 ) -> Checked {
-    let (blocks, stop, whole_falls) = (assembly.blocks(), AtomicBool::new(false), clock.whole_falls);
+    let (blocks, stop, whole_falls) = (assembly.blocks(), Stop::default(), clock.whole_falls);
+    let interrupt = stop.interrupt();
     let check = || {
         let begin = Instant::now();
-        let go_on = &mut |_| !stop.load(Ordering::Relaxed);
-        let whole = check_blocks_while(assembly, &BlockSet::full(blocks), go_on);
+        let whole = interrupt.run(|| check_blocks(assembly, &BlockSet::full(blocks)));
         whole_falls.store(whole.as_ref().is_some_and(|whole| !whole.stable), Ordering::Relaxed);
         (whole, begin.elapsed())
     };
     thread::scope(|scope| {
+        let stop = stop; // whatever ends this scope stops the thread as well
         let (tell, told) = channel();
         scope.spawn(|| {
             let tell = tell;
@@ -88,7 +120,7 @@ pub(super) fn check_beside_search(
         let progress = Progress { stage: Stage::Whole, tests: search.records.len(), placed: blocks, blocks };
         loop {
             if matches!(searched, Ok(Outcome::TimeLimit | Outcome::Interrupted) | Err(PlanError::Interrupted)) {
-                stop.store(true, Ordering::Relaxed);
+                stop.stop();
             }
             match told.recv_timeout(PERIOD) {
                 Ok((whole, time)) => return Checked { whole, time, searched },

@@ -4,7 +4,6 @@ use crate::any_scene::AnyScene;
 use crate::error::SceneError;
 use crate::suggest::nearest;
 use serde_json::Value;
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 /// A built-in scene in the [`catalogue`](super::catalogue).
@@ -68,13 +67,12 @@ pub(super) const fn seed(default: u64, summary: &'static str) -> Parameter {
     integer("seed", default, [0, 1 << 53], summary)
 }
 
-/// The values of a scene's parameters, by position, and whether to go on building it.
-pub(super) struct Arguments<'a> {
+/// The values of a scene's parameters, by position.
+pub(super) struct Arguments {
     values: Vec<f64>,
-    go_on: RefCell<&'a mut dyn FnMut() -> bool>,
 }
 
-impl Arguments<'_> {
+impl Arguments {
     pub fn integer(&self, position: usize) -> u64 {
         self.values[position] as u64
     }
@@ -86,19 +84,10 @@ impl Arguments<'_> {
     pub fn number(&self, position: usize) -> f64 {
         self.values[position]
     }
-
-    /// To be asked many times a second by what takes longer.
-    pub fn go_on(&self) -> bool {
-        (self.go_on.borrow_mut())()
-    }
 }
 
 impl SceneEntry {
-    pub(super) fn build(
-        &self,
-        given: &BTreeMap<String, Value>,
-        go_on: &mut dyn FnMut() -> bool,
-    ) -> Result<AnyScene, SceneError> {
+    pub(super) fn build(&self, given: &BTreeMap<String, Value>) -> Result<AnyScene, SceneError> {
         if let Some(unknown) = given.keys().find(|name| self.parameter(name).is_none()) {
             return Err(self.unknown_parameter(unknown));
         }
@@ -107,7 +96,7 @@ impl SceneEntry {
             Some(value) => self.read(parameter, value),
         };
         let values = self.parameters.iter().map(value).collect::<Result<_, _>>()?;
-        (self.make)(&Arguments { values, go_on: RefCell::new(go_on) })
+        (self.make)(&Arguments { values })
     }
 
     /// Checks that the values lie in the ranges of the parameters, in the same order.

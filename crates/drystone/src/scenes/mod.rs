@@ -64,18 +64,9 @@ pub fn catalogue() -> &'static [SceneEntry] {
 /// Builds a scene by name. Parameters left out take their defaults; an unknown name, an unknown
 /// parameter or a value of the wrong kind or out of range is an error that says what is accepted.
 pub fn build(name: &str, parameters: &BTreeMap<String, Value>) -> Result<AnyScene, SceneError> {
-    build_while(name, parameters, &mut || true)
-}
-
-/// The same; `go_on` is asked many times a second, and [`SceneError::Interrupted`] follows if it says no.
-pub fn build_while(
-    name: &str,
-    parameters: &BTreeMap<String, Value>,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<AnyScene, SceneError> {
     let names = catalogue().iter().map(|entry| entry.name);
     match catalogue().iter().find(|entry| entry.name == name) {
-        Some(entry) => entry.build(parameters, go_on),
+        Some(entry) => entry.build(parameters),
         None => Err(SceneError::UnknownScene {
             name: name.to_owned(),
             nearest: nearest(name, names.clone()),

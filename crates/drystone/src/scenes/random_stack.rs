@@ -5,6 +5,7 @@ mod standing;
 use super::builder::Builder;
 use super::entry::{SceneEntry, friction, integer, seed};
 use crate::error::SceneError;
+use crate::interrupt::poll;
 use crate::scene::Scene;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -39,7 +40,7 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
         seed(1, "start of the pseudo-random sequence"),
         friction(0.0),
     ],
-    make: |g| random_stack_while(g.size(0), g.integer(1), g.number(2), &mut || g.go_on()).map(Into::into),
+    make: |g| random_stack(g.size(0), g.integer(1), g.number(2)).map(Into::into),
 };
 
 /// A stack of `blocks` axis-aligned blocks on a fixed ground, the same for the same `seed`.
@@ -49,17 +50,8 @@ pub(super) const ENTRY: SceneEntry = SceneEntry {
 /// not tell it: they go up level by level, whereas some overhanging block bears its load only once
 /// its counterweight lies.
 pub fn random_stack(blocks: usize, seed: u64, friction: f64) -> Result<Scene, SceneError> {
-    random_stack_while(blocks, seed, friction, &mut || true)
-}
-
-fn random_stack_while(
-    blocks: usize,
-    seed: u64,
-    friction: f64,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<Scene, SceneError> {
     ENTRY.check(&[blocks as f64, seed as f64, friction])?;
-    drop_blocks(blocks, seed, friction, &mut Standing::on(ground_width(blocks)), go_on)
+    drop_blocks(blocks, seed, friction, &mut Standing::on(ground_width(blocks)))
 }
 
 /// The same with another rule: `accept` sees the frictionless stack with the new block on it (the
@@ -71,7 +63,7 @@ pub fn random_stack_where(
     accept: impl FnMut(&Scene) -> bool,
 ) -> Result<Scene, SceneError> {
     ENTRY.check(&[blocks as f64, seed as f64, friction])?;
-    drop_blocks(blocks, seed, friction, &mut Accepting { ground: ground_width(blocks), accept }, &mut || true)
+    drop_blocks(blocks, seed, friction, &mut Accepting { ground: ground_width(blocks), accept })
 }
 
 /// Which blocks stay where they were dropped.
@@ -87,21 +79,12 @@ trait Rule {
     fn keep(&mut self) {}
 }
 
-fn drop_blocks(
-    blocks: usize,
-    seed: u64,
-    friction: f64,
-    rule: &mut dyn Rule,
-    go_on: &mut dyn FnMut() -> bool,
-) -> Result<Scene, SceneError> {
+fn drop_blocks(blocks: usize, seed: u64, friction: f64, rule: &mut dyn Rule) -> Result<Scene, SceneError> {
     let mut random = Pcg64::seed_from_u64(seed);
     let ground = ground_width(blocks);
     let mut skyline = Skyline::level(ground);
     let mut placed: Vec<Placed> = Vec::with_capacity(blocks);
     while placed.len() < blocks {
-        if !go_on() {
-            return Err(SceneError::Interrupted { scene: ENTRY.name });
-        }
         let seek_counterweighted = random.random_range(0..2) == 0;
         let found = find_place(&mut random, &skyline, ground, &placed, seek_counterweighted, rule)?;
         let Some(block) = found else { return Err(gave_up(placed.len(), blocks)) };
@@ -126,6 +109,7 @@ fn find_place(
     rule: &mut dyn Rule,
 ) -> Result<Option<Placed>, SceneError> {
     for attempt in 0..ATTEMPTS {
+        poll(PLACES * skyline.0.len());
         let Some(block) = draw(random, skyline, ground) else { continue };
         let must_lean = seek_counterweighted && attempt < SEARCH;
         if rule.stands(placed, &block)? && !(must_lean && rule.stands_on_lower(placed, &block)?) {

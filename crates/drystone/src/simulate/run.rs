@@ -6,7 +6,7 @@ use super::{
     step::StepRecord,
     world::{ContactImpulse, World},
 };
-use crate::geometry::Polygon;
+use crate::{geometry::Polygon, interrupt::Interrupt};
 
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,7 +45,8 @@ pub struct Run<S: Moving = Polygon> {
     pub contacts: Vec<Vec<ContactImpulse<S::Vector>>>,
 }
 
-/// Makes steps and records them, with the impulses at the contacts if `forces` says so. `go_on` is asked before every step, with the number of steps made.
+/// Makes steps and records them, with the impulses at the contacts if `forces` says so. `go_on` is asked before every
+/// step, with the number of steps made; a step that is stopped on the way ends the run too.
 pub fn run<S: Moving>(
     world: &mut World<S>,
     steps: usize,
@@ -65,7 +66,11 @@ pub fn run<S: Moving>(
             run.ending = Ending::Interrupted;
             break;
         }
-        match world.step() {
+        let Some(made) = Interrupt::default().run(|| world.step()) else {
+            run.ending = Ending::Interrupted;
+            break;
+        };
+        match made {
             Ok(record) => run.records.push(record),
             Err(failure) => {
                 run.ending = Ending::Failed(failure);

@@ -18,6 +18,7 @@ use crate::{
         pair_tolerance,
     },
     geometry::norm,
+    interrupt::or_else,
 };
 use drystone_lcp::Counts;
 use std::time::{Duration, Instant};
@@ -61,9 +62,10 @@ impl<S: Moving> World<S> {
     /// Makes one step.
     ///
     /// # Errors
-    /// [`StepFailure`]; the bodies are as they were before then.
+    /// [`StepFailure`]; the bodies are as they were before then. So they are after a step that is stopped on the way
+    /// ([`interrupt`](crate::interrupt)), and the next one takes nothing over.
     pub fn step(&mut self) -> Result<StepRecord, StepFailure> {
-        let made = self.attempt();
+        let made = or_else(self, Self::attempt, Self::forget);
         if made.is_err() {
             // The solver may hold this step's problem already, of which the next one knows nothing.
             self.forget();
@@ -222,7 +224,17 @@ impl<S: Moving> World<S> {
     }
 
     /// Moves what moves, and takes back what came to overlap.
-    fn integrate(&mut self, mut velocities: Vec<S::Velocity>, motionless: Vec<bool>) -> Projected {
+    fn integrate(&mut self, velocities: Vec<S::Velocity>, motionless: Vec<bool>) -> Projected {
+        let poses: Vec<S::Pose> = self.scene.bodies().iter().map(|body| body.pose).collect();
+        let before = (self.velocities.clone(), self.motionless.clone(), self.forces.clone());
+        let go_on = |world: &mut Self| world.integrate_to_the_end(velocities, motionless);
+        or_else(self, go_on, |world| {
+            poses.into_iter().enumerate().for_each(|(i, pose)| world.scene.set_pose(i, pose));
+            (world.velocities, world.motionless, world.forces) = before;
+        })
+    }
+
+    fn integrate_to_the_end(&mut self, mut velocities: Vec<S::Velocity>, motionless: Vec<bool>) -> Projected {
         velocities
             .iter_mut()
             .zip(&motionless)

@@ -1,6 +1,6 @@
 //! Generators as sparse columns, with the columns of every row.
 
-use crate::error::LcpError;
+use crate::{error::LcpError, interrupt::poll};
 use serde::{Deserialize, Serialize};
 
 /// A sparse matrix G (rows x n) by columns and by rows.
@@ -33,6 +33,7 @@ impl Columns {
         let mut ascending = true;
         for j in 0..indptr.len() - 1 {
             let (rows, values) = (&indices[column(j)], &data[column(j)]);
+            poll(8 * rows.len());
             if let Some(place) = values.iter().position(|value| !value.is_finite()) {
                 return Err(LcpError::MatrixNotFinite { row: rows[place], column: j, value: values[place] });
             }
@@ -69,6 +70,7 @@ impl Columns {
     /// Lists the columns of every row.
     fn index_rows(&mut self) {
         let Self { rows, starts, entries, row_starts, row_columns } = self;
+        poll(4 * entries.len());
         row_starts.clear();
         row_starts.resize(*rows + 1, 0);
         entries.iter().for_each(|&(row, _)| row_starts[row as usize + 1] += 1);
@@ -131,6 +133,7 @@ impl Columns {
         let mut column_scale = Vec::with_capacity(self.len());
         for j in 0..self.len() {
             let column = &mut self.entries[self.starts[j]..self.starts[j + 1]];
+            poll(8 * column.len());
             column.iter_mut().for_each(|(row, value)| *value *= row_scale[*row as usize]);
             let largest = column.iter().fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
             let scale = if largest > 0.0 { largest.recip() } else { 1.0 };

@@ -70,6 +70,8 @@ enum Change {
 }
 
 /// Decides `h in cone(G)` on growing and shrinking sets of rows. A column takes part once all its rows are present.
+///
+/// Stopped on the way ([`crate::interrupt`]), it is of no further use: take a new one.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ConeSolver {
     g: Columns,

@@ -1,6 +1,7 @@
 //! Which column enters: the one that lowers the infeasibility fastest.
 
 use super::{columns::Columns, sparse_vector::SparseVector};
+use crate::interrupt::poll;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -18,6 +19,9 @@ const EQUAL: f64 = 1e-9;
 /// Where more than the so manieth part of all rows have multipliers, all columns are looked at one after the other: nearly
 /// every one touches such a row.
 const DENSE: usize = 8;
+
+/// Operations to look at a column, about.
+const COLUMN: usize = 8;
 
 impl Pricing {
     pub fn new(columns: usize) -> Self {
@@ -48,11 +52,13 @@ impl Pricing {
         let mut best = Best { floor, least_index, found: None };
         let preferred = if least_index { 0..0 } else { self.preferred.clone() };
         if DENSE * y.index().len() > g.rows() {
+            poll(COLUMN * g.len());
             let others = (0..preferred.start).chain(preferred.end..g.len() as u32);
             best.of_all(preferred.filter(|&j| allowed(j)), rate);
             best.of_all_if_none(others.filter(|&j| allowed(j)), rate);
         } else {
             self.touch(g, y, allowed);
+            poll(COLUMN * self.touched.len());
             best.of_all(self.touched.iter().copied().filter(|j| preferred.contains(j)), rate);
             best.of_all_if_none(self.touched.iter().copied().filter(|j| !preferred.contains(j)), rate);
             self.touched.clear();

@@ -1,7 +1,7 @@
 //! Dense `L D L'` of the active block, rows in the order in which they entered.
 
 use super::{ActiveFactor, FactorNumbers, LOST, RankOne, SingularBlock};
-use crate::matrix::SparseColumns;
+use crate::{interrupt::poll, matrix::SparseColumns};
 
 /// Unit lower triangular `L` by rows and diagonal `D`. Insertion appends a row, k^2 / 2 operations for k active rows;
 /// removal of the row at position p updates the (k - p)^2 / 2 entries below it.
@@ -54,6 +54,7 @@ impl DenseFactor {
 
     /// `L D L' += alpha w w'` for the rows from `first` on; `w` starts there.
     fn rank_one(&mut self, first: usize, w: &mut [f64], alpha: f64) {
+        poll(w.len() * w.len());
         let mut change = RankOne { alpha };
         let mut betas = Vec::with_capacity(w.len());
         for r in first..self.l.len() {
@@ -72,6 +73,7 @@ impl DenseFactor {
 
 impl ActiveFactor for DenseFactor {
     fn insert(&mut self, m: &SparseColumns, i: usize) -> Result<f64, SingularBlock> {
+        poll(self.order.len() * self.order.len() / 2);
         let mut row = vec![0.0; self.order.len()];
         let (rows, values) = m.column(i);
         let mut diagonal = 0.0;
@@ -123,6 +125,7 @@ impl ActiveFactor for DenseFactor {
             x[i] = value;
         }
         let k = self.order.len();
+        poll(k * k);
         k * k
     }
 

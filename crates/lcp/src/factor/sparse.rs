@@ -4,7 +4,7 @@
 //! Cholesky factorization (2005). An inactive row is a row and column of the identity.
 
 use super::{ActiveFactor, FactorNumbers, LOST, RankOne, SingularBlock, symbolic::Symbolic};
-use crate::matrix::SparseColumns;
+use crate::{interrupt::poll, matrix::SparseColumns};
 use std::sync::Arc;
 
 /// Values of `L` and `D` on a [`Symbolic`] pattern that is shared by all clones.
@@ -55,7 +55,7 @@ impl SparseFactor {
         let symbolic = Arc::clone(&self.symbolic);
         let mut change = RankOne { alpha };
         let mut least = 1.0_f64;
-        let mut at = first;
+        let (mut at, mut work) = (first, 0);
         while let Some(j) = at {
             let wj = std::mem::take(&mut self.scratch[j]);
             if wj != 0.0 {
@@ -63,6 +63,7 @@ impl SparseFactor {
                 least = least.min(d / self.d[j]);
                 self.d[j] = d;
                 let column = symbolic.column(j);
+                work += 2 * column.len();
                 for (&i, l) in symbolic.rows[column.clone()].iter().zip(&mut self.l[column]) {
                     let w = &mut self.scratch[i as usize];
                     *w -= wj * *l;
@@ -71,6 +72,7 @@ impl SparseFactor {
             }
             at = symbolic.parent(j);
         }
+        poll(work);
         least
     }
 }
@@ -81,7 +83,7 @@ impl ActiveFactor for SparseFactor {
         let k = symbolic.position[i];
         let diagonal = self.scatter(m, i);
         // Row k of L, and the column below it, in one pass over the columns that row k reaches.
-        let mut pivot = diagonal;
+        let (mut pivot, mut work) = (diagonal, 0);
         for &(j, place) in symbolic.row(k) {
             let j = j as usize;
             let y = std::mem::take(&mut self.scratch[j]);
@@ -90,6 +92,7 @@ impl ActiveFactor for SparseFactor {
             }
             let l = y / self.d[j];
             pivot -= l * y;
+            work += symbolic.column(j).len();
             for p in place as usize + 1..symbolic.starts[j + 1] {
                 self.scratch[symbolic.rows[p] as usize] -= self.l[p] * y;
             }
@@ -98,6 +101,7 @@ impl ActiveFactor for SparseFactor {
             }
             self.l[place as usize] = l;
         }
+        poll(work);
         if pivot.is_nan() || pivot <= LOST * diagonal {
             for &(_, place) in symbolic.row(k) {
                 self.l[place as usize] = 0.0;
@@ -167,6 +171,7 @@ impl ActiveFactor for SparseFactor {
         for (&i, y) in symbolic.row_at.iter().zip(y) {
             x[i] = y;
         }
+        poll(read);
         read
     }
 
@@ -175,6 +180,7 @@ impl ActiveFactor for SparseFactor {
         self.d.fill(1.0);
         self.active.fill(false);
         self.rows_active = 0;
+        self.scratch.fill(0.0); // a change may have been stopped on the way
     }
 
     fn rows(&self) -> Vec<usize> {

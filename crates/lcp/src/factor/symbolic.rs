@@ -2,7 +2,10 @@
 //!
 //! Every active set is a mask of this pattern. Liu, The role of elimination trees in sparse factorization (1990).
 
-use crate::matrix::SparseColumns;
+use crate::{
+    interrupt::{apart, poll},
+    matrix::SparseColumns,
+};
 use faer::{
     dyn_stack::{MemBuffer, MemStack},
     sparse::{SymbolicSparseColMatRef, linalg::amd},
@@ -45,6 +48,7 @@ impl Symbolic {
         let mut rows = vec![0; starts[n]];
         let (mut row_starts, mut row_entries) = (vec![0], Vec::with_capacity(starts[n]));
         for (k, pattern) in row_patterns.iter().enumerate() {
+            poll(8 * pattern.len());
             for &j in pattern {
                 let place = next[j as usize];
                 next[j as usize] += 1;
@@ -75,16 +79,21 @@ impl Symbolic {
     }
 }
 
+/// Operations of the ordering for each entry of the matrix: much fewer mostly, but where it fills up.
+const ORDERING: usize = 1024;
+
 /// Approximate minimum degree; the given order where faer declines (it does so only when it runs out of memory).
 fn fill_reducing_order(m: &SparseColumns) -> Vec<usize> {
-    let n = m.len();
-    let (mut order, mut inverse) = (vec![0usize; n], vec![0usize; n]);
-    let pattern = SymbolicSparseColMatRef::new_checked(n, n, m.indptr(), None, m.indices());
-    let scratch = amd::order_scratch::<usize>(n, m.stored());
-    let found = MemBuffer::try_new(scratch).is_ok_and(|mut memory| {
-        amd::order(&mut order, &mut inverse, pattern, amd::Control::default(), MemStack::new(&mut memory)).is_ok()
+    let (n, indptr, indices) = (m.len(), m.indptr().to_vec(), m.indices().to_vec());
+    let order = apart(ORDERING * indices.len(), move || {
+        let (mut order, mut inverse) = (vec![0usize; n], vec![0usize; n]);
+        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &indptr, None, &indices);
+        let mut memory = MemBuffer::try_new(amd::order_scratch::<usize>(n, indices.len())).ok()?;
+        let control = amd::Control::default();
+        amd::order(&mut order, &mut inverse, pattern, control, MemStack::new(&mut memory)).ok()?;
+        Some(order)
     });
-    if found { order } else { (0..n).collect() }
+    order.unwrap_or_else(|| (0..n).collect())
 }
 
 /// The columns of every row of `L`, ascending: row k reaches from the entries of `M` left of its diagonal
@@ -108,6 +117,7 @@ fn row_patterns(m: &SparseColumns, row_at: &[usize], position: &[usize]) -> Vec<
             }
         }
         pattern.sort_unstable();
+        poll(8 * pattern.len());
         patterns.push(pattern);
     }
     patterns

@@ -27,6 +27,7 @@ use super::Method;
 use crate::{
     counts::Counts,
     error::LcpError,
+    interrupt::apart,
     matrix::SparseColumns,
     problem::Problem,
     reuse::{Start, StartError},
@@ -147,10 +148,13 @@ impl Outcome<'_> {
             }
         }
         let right = Mat::from_fn(k, 1, |i, _| -self.q[active[i]]);
-        let lu = dense.partial_piv_lu();
-        let mut z_active = lu.solve(&right);
-        let correction = lu.solve(&right - &dense * &z_active);
-        z_active += correction;
+        let z_active = apart(k * k * k, move || {
+            let lu = dense.partial_piv_lu();
+            let mut z_active = lu.solve(&right);
+            let correction = lu.solve(&right - &dense * &z_active);
+            z_active += correction;
+            z_active
+        });
         let mut z = vec![0.0; self.q.len()];
         for (i, &j) in active.iter().enumerate() {
             z[j] = z_active[(i, 0)].max(0.0);

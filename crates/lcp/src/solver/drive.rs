@@ -3,6 +3,7 @@
 use super::{CURVATURE_ROUNDING, Cycle, REFINE, Role, STALL, Solver, largest, take};
 use crate::{
     error::LcpError,
+    interrupt::poll,
     ratio::{Blocker, Candidate, TieRule, ratio_test},
 };
 
@@ -126,16 +127,18 @@ impl Solver {
             self.dw[j] = 0.0;
             self.is_reached[j] = false;
         }
-        self.add_to_dw(i, 1.0);
+        let mut work = self.w.len() + self.add_to_dw(i, 1.0);
         for k in 0..self.active.members().len() {
             let j = self.active.members()[k];
             if self.dz[j] != 0.0 {
-                self.add_to_dw(j, self.dz[j]);
+                work += self.add_to_dw(j, self.dz[j]);
             }
         }
+        poll(work);
     }
 
-    fn add_to_dw(&mut self, j: usize, factor: f64) {
+    /// Returns the number of entries.
+    fn add_to_dw(&mut self, j: usize, factor: f64) -> usize {
         let (rows, values) = self.m.column(j);
         for (&i, &value) in rows.iter().zip(values) {
             self.dw[i] += factor * value;
@@ -143,6 +146,7 @@ impl Solver {
                 self.reached.push(i);
             }
         }
+        rows.len()
     }
 
     /// `dz' M dz`, which equals `dw_i` but for the error of the active `dw`: that enters `dw_i` multiplied by the direction's

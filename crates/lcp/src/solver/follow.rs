@@ -9,11 +9,12 @@ use super::{Load, Role, Solver};
 use crate::{
     error::LcpError,
     factor::{self, ActiveFactor},
+    interrupt::or_else,
     matrix::SparseColumns,
     problem::Problem,
     scaling::Scaling,
 };
-use std::sync::Arc;
+use std::{cell::Cell, sync::Arc};
 
 /// Where a row of the new problem comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,6 +41,9 @@ impl Origin {
 /// any other if it is violated. A direction through such a row could be 1e5 long, and cost as many digits.
 const COMES_BACK: f64 = 1e-10;
 
+/// The problem and its scaling from before.
+type Before = Cell<Option<(Problem, Scaling)>>;
+
 impl Solver {
     /// Goes over to another problem. `origins` (n) says which row each of its rows was; what the rows were (present or not,
     /// active, `z`) they are again. Returns the number of active rows that stayed in the factor untouched.
@@ -49,10 +53,24 @@ impl Solver {
     /// [`Self::new`]; nothing has changed then.
     pub fn follow(&mut self, problem: Problem, origins: &[Origin]) -> Result<usize, LcpError> {
         problem.require_symmetric()?;
+        let (role, load) = (self.role.clone(), Arc::clone(&self.load));
+        let before = Cell::new(None);
+        let go_over = |solver: &mut Self| solver.go_over(problem, origins, &before);
+        or_else(self, go_over, |solver| {
+            if let Some((problem, scaling)) = before.take() {
+                solver.m = Arc::new(problem.m().scaled_symmetrically(&scaling.d));
+                (solver.problem, solver.scaling) = (problem, scaling);
+            }
+            solver.begin_anew(&role, load);
+        })
+    }
+
+    /// The old problem goes to `before` as soon as it is not this solver's any more.
+    fn go_over(&mut self, problem: Problem, origins: &[Origin], before: &Before) -> Result<usize, LcpError> {
         let place = self.places(problem.len(), origins)?;
         let in_place = place.len() == origins.len() && place.iter().enumerate().all(|(i, &new)| new == Some(i));
         if in_place && problem.m().same_pattern(&self.m) {
-            return self.follow_in_place(problem, origins);
+            return self.follow_in_place(problem, origins, before);
         }
         let scaling = Scaling::new(&problem);
         let m = problem.m().scaled_symmetrically(&scaling.d);
@@ -80,7 +98,7 @@ impl Solver {
     }
 
     /// The same for a problem with the same rows, of which some have other entries at the same places.
-    fn follow_in_place(&mut self, problem: Problem, origins: &[Origin]) -> Result<usize, LcpError> {
+    fn follow_in_place(&mut self, problem: Problem, origins: &[Origin], before: &Before) -> Result<usize, LcpError> {
         let moved = |i: usize| matches!(origins[i], Origin::Moved(_));
         for column in (0..problem.len()).filter(|&column| !moved(column)) {
             let ((rows, values), (_, old)) = (problem.m().column(column), self.problem.m().column(column));
@@ -95,14 +113,17 @@ impl Solver {
         self.take_out(&leaving);
         leaving.iter().for_each(|&i| self.active.remove(i));
         let scaling = self.scaling.after(&problem, moved);
-        Arc::make_mut(&mut self.m).scale_again(problem.m(), &scaling.d, moved);
+        let old_scaling = std::mem::replace(&mut self.scaling, scaling);
+        let d = &self.scaling.d;
         for i in (0..origins.len()).filter(|&i| self.role[i] != Role::Absent) {
             self.settled &= !moved(i) && self.load.q[i] == problem.q()[i];
-            self.z[i] *= self.scaling.d[i] / scaling.d[i];
+            self.z[i] *= old_scaling.d[i] / d[i];
         }
-        let scaled = scaling.d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
+        let scaled = d.iter().zip(problem.q()).map(|(d, q)| d * q).collect();
         self.load = Arc::new(Load { q: problem.q().to_vec(), scaled });
-        (self.problem, self.scaling, self.driven) = (problem, scaling, None);
+        self.driven = None;
+        before.set(Some((std::mem::replace(&mut self.problem, problem), old_scaling)));
+        Arc::make_mut(&mut self.m).scale_again(self.problem.m(), &self.scaling.d, moved);
         leaving.into_iter().for_each(|i| self.come_back(i));
         self.measure_q();
         // Where something has changed the next solve computes w; else it is what it was.

@@ -1,6 +1,8 @@
 //! What keeps a state right: complementarity after a change of rows or of `q`, the check of a result, repairs.
 
-use super::{Checked, ROUNDING, Role, Solver, largest};
+use super::{Checked, Load, ROUNDING, Role, Solver, largest};
+use crate::interrupt::{or_else, poll};
+use std::sync::Arc;
 
 impl Solver {
     /// Puts row j into the active set. False if the factor refuses it.
@@ -118,11 +120,14 @@ impl Solver {
 
     pub(super) fn recompute_w(&mut self) {
         self.w.copy_from_slice(&self.load.scaled);
+        let mut work = self.z.len();
         for j in 0..self.z.len() {
             if self.z[j] != 0.0 {
                 self.m.add_column(j, self.z[j], &mut self.w);
+                work += self.m.column(j).0.len();
             }
         }
+        poll(work);
     }
 
     /// Builds the factor again. Rows that it refuses leave the active set, and the state is to be settled then.
@@ -137,6 +142,27 @@ impl Solver {
                 self.settled = false;
             }
         }
+    }
+
+    /// Does something that may be stopped on the way; if it is, the rows and `q` are what they were, and the next solve begins
+    /// from nothing.
+    pub(super) fn or_as_before<T>(&mut self, change: impl FnOnce(&mut Self) -> T) -> T {
+        let (role, load) = (self.role.clone(), Arc::clone(&self.load));
+        or_else(self, change, |solver| solver.begin_anew(&role, load))
+    }
+
+    /// From whatever was left behind: these rows, this load, and nothing else.
+    pub(super) fn begin_anew(&mut self, role: &[Role], load: Arc<Load>) {
+        self.take_load(load);
+        self.role.copy_from_slice(role);
+        self.measure_q();
+        self.dz.fill(0.0);
+        self.moving.clear();
+        self.dw.fill(0.0);
+        self.reached.clear();
+        self.is_reached.fill(false);
+        self.ray = None;
+        self.restart();
     }
 
     /// Forgets everything but which rows are present.

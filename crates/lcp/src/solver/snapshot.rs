@@ -26,6 +26,11 @@ impl Solver {
         if !Arc::ptr_eq(&self.m, &snapshot.matrix) {
             return Err(LcpError::ForeignSnapshot);
         }
+        self.or_as_before(|solver| solver.go_to(snapshot));
+        Ok(())
+    }
+
+    fn go_to(&mut self, snapshot: &Snapshot) {
         if !Arc::ptr_eq(&self.load, &snapshot.load) {
             self.take_load(Arc::clone(&snapshot.load));
         }
@@ -60,7 +65,6 @@ impl Solver {
             }
         }
         self.recompute_w();
-        Ok(())
     }
 
     pub(super) fn take_load(&mut self, load: Arc<Load>) {

@@ -1,10 +1,14 @@
 //! The checks on an answer: the imbalance of forces, the signs of a certificate, refinement.
 
 use super::{Basic, ConeSolver, RATE};
+use crate::interrupt::poll;
 
 /// Checks between two summations of every row from nothing. In between the sums are carried along with the forces that
 /// change; each change rounds by 1e-16 of the largest force, so that they stay right to some 1e-12.
 const CARRIED: usize = 1000;
+
+/// Operations to sum a row, about.
+const ROW: usize = 16;
 
 impl ConeSolver {
     /// Largest `|G f - h|` of a present row, relative to the largest column times its value. Only the rows of columns
@@ -46,6 +50,7 @@ impl ConeSolver {
 
     /// Sums every row from nothing.
     pub(super) fn sum_rows(&mut self) {
+        poll(ROW * self.rows.len());
         (self.carried, self.worst, self.size) = (0, 0.0, 1.0);
         for &row in &self.rows {
             self.balance[row as usize] = -self.h[row as usize];

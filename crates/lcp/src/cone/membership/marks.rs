@@ -1,6 +1,7 @@
 //! Going back: the state at a mark, restored from what was changed since.
 
 use super::{Basic, Change, ConeSolver, keeping::BasisSet};
+use crate::interrupt::poll;
 use serde::{Deserialize, Serialize};
 
 /// A point to return to with [`ConeSolver::roll_back`].
@@ -70,6 +71,7 @@ impl ConeSolver {
             && let Some(change) = self.changes.pop()
         {
             self.take_back(change, (!same_positions).then_some(&mut basis), &mut gone);
+            poll(self.rows.len());
         }
         if same_positions {
             self.factor.undo_to(mark.factor);

@@ -1,6 +1,6 @@
 //! Scaling of rows and columns apart, for a matrix that need not be symmetric.
 
-use crate::{error::LcpError, matrix::SparseColumns, problem::Problem};
+use crate::{error::LcpError, interrupt::poll, matrix::SparseColumns, problem::Problem};
 
 /// `w = R^-1 ws`, `z = C zs`: the problem becomes `ws = (R M C) zs + R q`, and complementary pairs stay complementary.
 ///
@@ -31,6 +31,7 @@ impl Equilibration {
             let (mut row_size, mut column_size) = (vec![0.0_f64; m.len()], vec![0.0_f64; m.len()]);
             for j in 0..m.len() {
                 let (indices, values) = m.column(j);
+                poll(indices.len());
                 for (&i, value) in indices.iter().zip(values) {
                     let size = (value * rows[i] * columns[j]).abs();
                     row_size[i] = row_size[i].max(size);

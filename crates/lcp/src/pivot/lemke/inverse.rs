@@ -1,6 +1,7 @@
 //! The explicit inverse of a basis, which the lexicographic rule reads row by row.
 
 use super::system::{System, Variable};
+use crate::interrupt::{apart, poll};
 use faer::{
     Mat,
     linalg::solvers::{DenseSolveCore, Solve},
@@ -30,12 +31,17 @@ impl BasisInverse {
 
     /// `B^-1 a` for the column of a variable.
     pub fn apply(&self, system: &System, variable: Variable) -> Vec<f64> {
-        (0..self.n).map(|r| system.dot(variable, self.row(r))).collect()
+        let dot = |r: usize| {
+            poll(self.n);
+            system.dot(variable, self.row(r))
+        };
+        (0..self.n).map(dot).collect()
     }
 
     /// The column at place `r` of B is replaced by `a`, with `direction = B^-1 a`.
     pub fn exchange(&mut self, r: usize, direction: &[f64]) {
         let n = self.n;
+        poll(n * n);
         let mut pivot_row: Vec<f64> = self.row(r).to_vec();
         pivot_row.iter_mut().for_each(|value| *value /= direction[r]);
         for (i, &d) in direction.iter().enumerate() {
@@ -56,7 +62,12 @@ impl BasisInverse {
     /// factored, by LU with partial pivoting: `x_K = B_RK^-1 a_R`, `x_i = a_i - B_iK x_K`.
     pub fn rebuild(&mut self, system: &System, basic: &[Variable]) -> Option<Vec<f64>> {
         let shape = Shape::of(basic);
-        let lu = shape.block(system).partial_piv_lu();
+        let (block, size) = (shape.block(system), shape.rows.len());
+        let (lu, inverse) = apart(3 * size * size * size, move || {
+            let lu = block.partial_piv_lu();
+            let inverse = lu.inverse();
+            (lu, inverse)
+        });
         let solve = |a: &[f64]| {
             let right = Mat::from_fn(shape.rows.len(), 1, |r, _| a[shape.rows[r]]);
             let found = lu.solve(&right);
@@ -66,7 +77,6 @@ impl BasisInverse {
         let correction = solve(&system.difference(basic, &x, system.q));
         x.iter_mut().zip(correction).for_each(|(x, correction)| *x += correction);
 
-        let inverse = lu.inverse();
         self.rows.fill(0.0);
         self.age = 0;
         for (k, &(place, _)) in shape.others.iter().enumerate() {
@@ -84,9 +94,11 @@ impl BasisInverse {
     /// Rows of basic `w_i`: `e_i - B_iK` times the rows of the others.
     fn fill_unit_rows(&mut self, shape: &Shape, system: &System) {
         for &(place, variable) in &shape.others {
+            poll(self.n);
             let source: Vec<f64> = shape.rows.iter().map(|&r| self.rows[place * self.n + r]).collect();
             system.for_each(variable, |i, value| {
                 let Some(target) = shape.unit_at[i] else { return };
+                poll(shape.rows.len());
                 let row = &mut self.rows[target * self.n..(target + 1) * self.n];
                 shape.rows.iter().zip(&source).for_each(|(&r, source)| row[r] -= value * source);
             });

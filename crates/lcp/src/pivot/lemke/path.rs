@@ -4,7 +4,7 @@ use super::{
     inverse::BasisInverse,
     system::{System, Variable},
 };
-use crate::{matrix::SparseColumns, settings::Settings};
+use crate::{interrupt::poll, matrix::SparseColumns, settings::Settings};
 use std::borrow::Cow;
 
 /// How the path ended.
@@ -155,7 +155,10 @@ impl<'a> Path<'a> {
         let row = self.inverse.row(r);
         match &self.start {
             None => Cow::Borrowed(row),
-            Some(start) => start.iter().map(|&variable| self.system.dot(variable, row)).collect(),
+            Some(start) => {
+                poll(self.system.m.stored());
+                start.iter().map(|&variable| self.system.dot(variable, row)).collect()
+            }
         }
     }
 
@@ -222,6 +225,7 @@ impl<'a> Path<'a> {
         for &column in &self.order {
             let entry = |(r, row): &(usize, Cow<'_, [f64]>)| row[column] / direction[*r];
             let least = rows.iter().map(entry).fold(f64::INFINITY, f64::min);
+            poll(rows.len());
             rows.retain(|row| entry(row) <= least + LEXICOGRAPHIC_TIE * size);
             if rows.len() == 1 {
                 break;

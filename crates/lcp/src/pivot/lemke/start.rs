@@ -6,8 +6,8 @@
 //! so `M y = 0`, z is moved along y, which changes no w, until another active z is zero.
 
 use crate::{
-    error::LcpError, matrix::SparseColumns, problem::Problem, reuse::Start, scaling::Scaling, settings::Settings,
-    solver::Solver,
+    error::LcpError, interrupt::poll, matrix::SparseColumns, problem::Problem, reuse::Start, scaling::Scaling,
+    settings::Settings, solver::Solver,
 };
 
 /// The solution of a start, scaled to a unit diagonal.
@@ -95,8 +95,10 @@ fn eliminate(columns: &mut Vec<Vec<f64>>, rows: &[usize], least: f64) -> Vec<usi
         let size = |&(k, row): &(usize, usize)| columns[k][row].abs();
         let largest = entries.max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a)));
         let Some((k, row)) = largest.filter(|entry| size(entry) > least) else { return pivots };
+        poll(columns.len() * (rows.len() + pivots.len()));
         let pivot = columns.swap_remove(k);
         for column in columns.iter_mut() {
+            poll(pivot.len());
             let factor = column[row] / pivot[row];
             column.iter_mut().zip(&pivot).for_each(|(value, p)| *value -= factor * p);
         }

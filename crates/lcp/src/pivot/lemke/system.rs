@@ -1,6 +1,6 @@
 //! The system that Lemke's method pivots on, `w - M z - c z0 = q`, by its columns.
 
-use crate::matrix::SparseColumns;
+use crate::{interrupt::poll, matrix::SparseColumns};
 
 /// A variable, which is to say a column of the system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,6 +56,7 @@ impl System<'_> {
     /// `right - B x` for the basic variables of B and their values.
     pub fn difference(&self, basic: &[Variable], x: &[f64], right: &[f64]) -> Vec<f64> {
         let mut difference = right.to_vec();
+        poll(self.m.stored());
         basic.iter().zip(x).for_each(|(&variable, &x)| self.add_to(&mut difference, variable, -x));
         difference
     }
