@@ -24,14 +24,15 @@ has = $(shell command -v $(1) 2>/dev/null)
 answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
 
 .NOTPARALLEL:
-.PHONY: help demo test build lint style rust-tests viewer-tests viewer-lint python-tests types tools \
-    test-tools clean
+.PHONY: help demo test build lint style rust-tests viewer-tests viewer-lint python-tests types deny \
+    audit tools test-tools clean
 
 help:
 	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
 	@echo "make test    every test and check"
 	@echo "make build   only build, into .venv"
 	@echo "make lint    only formatting, lints and types"
+	@echo "make audit   known vulnerabilities of what the Rust crates depend on (needs cargo-deny)"
 	@echo "make clean   remove what the others made"
 
 demo: build
@@ -63,9 +64,17 @@ python-tests: build
 	@echo "== pytest"
 	@$(BIN)/pytest
 
-lint: style types viewer-lint
+lint: style types viewer-lint deny
 	@echo "== cargo clippy"
 	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
+
+# Licences and sources of the Rust crates (deny.toml), where cargo-deny is installed.
+deny: tools
+	$(if $(call has,cargo-deny),@echo "== cargo deny"; cargo deny --log-level error check bans licenses sources,@:)
+
+# Known vulnerabilities, from a list that is fetched from GitHub.
+audit: tools
+	@cargo deny check advisories
 
 # First, because it takes seconds.
 style: test-tools $(VENV)/.ready

@@ -26,7 +26,7 @@ AFTER = 0.15
 
 @contextmanager
 def ctrl_c(after: float = AFTER) -> Iterator[None]:
-    """Sends the main thread an interrupt, and measures how long it takes until the work has ended."""
+    """Sends the main thread an interrupt, and measures the wait for its effect."""
     sent: list[float] = []
 
     def send() -> None:
@@ -140,18 +140,18 @@ def test_scenes_being_made_read_and_looked_at() -> None:
 
 
 def test_what_a_handler_raises_is_what_comes_out() -> None:
-    class Alarm(Exception):
+    class AlarmError(Exception):
         pass
 
     def ring(*_: object) -> None:
-        raise Alarm
+        raise AlarmError
 
     scene = ds.scenes.brick_wall(40, 40)
     before = signal.signal(signal.SIGALRM, ring)
     try:
         for call in (lambda: ds.check(scene), lambda: ds.plan(scene), lambda: ds.simulate(scene)):
             signal.setitimer(signal.ITIMER_REAL, 0.2)
-            with pytest.raises(Alarm):
+            with pytest.raises(AlarmError):
                 call()
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
