@@ -46,8 +46,8 @@ def plan(
     - "lp": static equilibrium as a linear program, a fresh HiGHS model for every test;
     - "lp-warm": the same program in one live HiGHS model, warm-started.
 
-    `node_limit` bounds the tests, `time_limit` the seconds. A limit reached or an interrupt
-    (Ctrl-C) is a status of the plan, which then holds the best so far.
+    `node_limit` bounds the tests, `time_limit` the seconds of all, set-up too. A limit reached or
+    an interrupt (Ctrl-C) is a status of the plan, which then holds the best so far.
 
     A test of the core that finds a sub-assembly to fall also finds how. With `shortcuts` that
     motion answers later tests it still applies to, and tells which blocks wait for one another in

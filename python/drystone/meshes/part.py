@@ -67,6 +67,10 @@ class Part:
         return self.simplification.volume_before / self.simplification.volume_after
 
 
+BEYOND_USE = (ArithmeticError, LookupError, MemoryError, ValueError)
+"""What the numbers of a damaged file run a reader into."""
+
+
 def read_part(
     source: str | PathLike[str] | Any,
     *,
@@ -95,6 +99,8 @@ def read_part(
         return part_from(read, scale, name, hull, max_pieces, simplify, tolerance)
     except MeshError as error:
         raise MeshError(f"{label}: {error}") from None
+    except BEYOND_USE as error:
+        raise MeshError(f"{label}: {_reason(error)}") from error
 
 
 def read_parts(
@@ -121,6 +127,16 @@ def read_parts(
         return [_named(read, found, options) for read in found.parts], found
     except MeshError as error:
         raise MeshError(f"{fspath(path)}: {error}") from None
+    except BEYOND_USE as error:
+        raise MeshError(f"{fspath(path)}: {_reason(error)}") from error
+
+
+def _reason(error: Exception) -> str:
+    reason = " ".join(str(error).split())[:200]
+    return (
+        "damaged, or with numbers too large or too small to compute with "
+        f"({type(error).__name__}: {reason})"
+    )
 
 
 def _named(read: Triangles, found: Split, options: dict[str, Any]) -> Part:
