@@ -170,6 +170,7 @@ impl Drop for Entered {
 mod tests {
     use super::{Interrupt, LONG, WORTH_ASKING, apart, or_else, poll, poll_now};
     use std::{
+        cell::Cell,
         panic::{AssertUnwindSafe, catch_unwind},
         sync::{
             Arc,
@@ -188,15 +189,15 @@ mod tests {
     #[test]
     fn work_stops_at_the_first_yes_and_is_asked_by_what_it_does() {
         let (interrupt, asked) = after(3);
-        let mut done = 0;
+        let done = Cell::new(0);
         let ended = interrupt.run(|| {
             loop {
-                done += 1;
+                done.set(done.get() + 1);
                 poll(WORTH_ASKING / 4);
             }
         });
         assert_eq!((ended, asked.load(Relaxed)), (None::<()>, 4));
-        assert!((16..=20).contains(&done), "{done} quarters between four questions");
+        assert!((16..=20).contains(&done.get()), "{done:?} quarters between four questions");
         assert_eq!(Interrupt::default().run(|| 7), Some(7));
     }
 

@@ -15,7 +15,7 @@ use crate::{
     formulate::{Assembly, BlockSet},
     scenes::{random_stack, random_stack_where},
 };
-use std::{sync::atomic::AtomicBool, time::Instant};
+use std::sync::atomic::AtomicBool;
 
 pub(super) const AT_ONCE: Bounds = Bounds { patience: 0, for_a_block: 64, numbers: 1 << 20 };
 

@@ -124,7 +124,7 @@ mod tests {
     fn the_stack_is_put_up_once() {
         let (blocks, seed) = (200, 1);
         let mut standing = Standing::on(ground_width(blocks));
-        drop_blocks(blocks, seed, 0.0, &mut standing, &mut || true).unwrap();
+        drop_blocks(blocks, seed, 0.0, &mut standing).unwrap();
         assert_eq!(standing.kept, blocks);
         let pivots = standing.solver.counts().pivots;
         assert!(pivots < 80 * blocks, "{pivots} pivots");
