@@ -7,14 +7,18 @@ from drystone import _core
 FACETS = 8
 """Edges of a friction cone without a choice."""
 
+MOST_FACETS = 1000
+"""Edges of a friction cone at most: they leave out 5e-6 of the coefficient, and cost memory."""
+
 CONES = ("inscribed", "circumscribed", "both")
 """The sides of Coulomb's cone that `check` knows."""
 
 
 def core_cones(facets: int, cone: str, known: tuple[str, ...] = CONES[:2]) -> tuple[int, str]:
-    """What the core takes; SceneError for less than three facets, ValueError for another cone."""
+    """What the core takes; SceneError for facets that are not 3 to `MOST_FACETS`,
+    ValueError for another cone."""
     if cone not in known:
         raise ValueError(f"unknown cone {cone!r}: choose one of {', '.join(known)}")
-    if facets < 3:
-        raise _core.SceneError(f"facets is {facets}: a friction cone in space has at least 3")
+    if not 3 <= facets <= MOST_FACETS:
+        raise _core.SceneError(f"facets is {facets}: a cone in space has 3 to {MOST_FACETS}")
     return facets, cone

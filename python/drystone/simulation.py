@@ -27,12 +27,15 @@ REUSE = ("full", "motionless", "none")
 FORMULATIONS = ("velocity", "acceleration")
 """What the unknowns of a step may be: see `simulate`."""
 
+MOST_STEPS = 10**9
+"""Steps of one run: it holds all of them in memory."""
+
 ENDINGS = {
     "finished": "Finished",
     "interrupted": "Interrupted",
     "unsolved": "Stopped: a step could not be solved",
     "too_fast": "Stopped: a block turns too fast for the step",
-    "not_finite": "Stopped: the motion is not finite any more",
+    "out_of_bounds": "Stopped: a block is further away or faster than can be computed",
 }
 """What a run's status says."""
 
@@ -49,7 +52,7 @@ class Run:
 
     status: str
     """"finished", "interrupted", or why a step could not be made: "unsolved", "too_fast",
-    "not_finite". The steps before it are here."""
+    "out_of_bounds". The steps before it are here."""
     reason: str | None
     """For a step that could not be made: what happened, and what to do."""
     names: tuple[str, ...]
@@ -287,8 +290,12 @@ def simulate(
     A step that cannot be made, and Ctrl-C, end the run; its status says so, and the steps before
     are kept.
 
-    Raises SimulationError for a `dt` that is not above zero, a `restitution` outside 0 to 1 or
-    numbers that are not finite, and SceneError for bodies that overlap or less than three facets.
+    In motion a coefficient of friction above 100 counts as 100: no load that leans by less than
+    89.4 degrees from a face's normal slides on it.
+
+    Raises SimulationError for a `dt` outside 1e-12 to 1e12 s, a `restitution` outside 0 to 1 or
+    velocities that are not finite or beyond 1e12, and SceneError for bodies that overlap, or facets
+    that are not 3 to 1000.
 
     >>> import drystone as ds
     >>> run = ds.simulate(ds.scenes.fall7(), steps=240)
@@ -303,8 +310,12 @@ def simulate(
     >>> run.poses.shape
     (241, 8, 7)
     """
-    if steps < 0:
-        raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
+    if not 0 <= steps <= MOST_STEPS:
+        raise _core.SimulationError(f"steps is {steps}: it must be from 0 to {MOST_STEPS}")
+    if not isinstance(velocities or {}, Mapping):
+        raise TypeError(
+            f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
+        )
     cones = core_cones(facets, cone)
     world = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
     for name, velocity in (velocities or {}).items():

@@ -208,7 +208,7 @@ BAD = {
         lambda s: s.add_polygon([(0, 0), (1, 0), (0, 1)]),
         ["in space", "add_polyhedron"],
     ),
-    "facets": (lambda s: ds.check(s, facets=2), ["facets is 2", "at least 3"]),
+    "facets": (lambda s: ds.check(s, facets=2), ["facets is 2", "3 to 1000"]),
 }
 
 

@@ -38,7 +38,7 @@ impl AnyScene {
     /// The contacts and generators; see [`Assembly::with_cones`].
     ///
     /// # Errors
-    /// [`SceneError::Overlap`], [`SceneError::TooFewFacets`].
+    /// [`SceneError::Overlap`], [`SceneError::BadFacets`].
     pub fn assembly(&self, cones: Cones) -> Result<Assembly, SceneError> {
         with_scene!(self, scene => Assembly::with_cones(scene, cones))
     }

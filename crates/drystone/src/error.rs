@@ -1,7 +1,10 @@
 //! What can be wrong with a scene, each as a typed error that names the block and the fix.
 
-use crate::geometry::{ShapeFault, SolidFault};
-use crate::mass_properties::InertiaFault;
+use crate::{
+    bounds::{Bounds, MOST_FACETS, Plain},
+    geometry::{ShapeFault, SolidFault},
+    mass_properties::InertiaFault,
+};
 use thiserror::Error;
 
 /// A scene that cannot be built, read or put into contact.
@@ -23,6 +26,16 @@ pub enum SceneError {
         place: String,
         /// The offending value.
         value: f64,
+    },
+    /// A number that is too large or too small for what is computed from it; see [`crate::bounds`].
+    #[error("{place} is {}{}: it must be {bounds}: {}", Plain(*.value), .bounds.unit, .bounds.advice)]
+    OutOfBounds {
+        /// The block and the quantity.
+        place: String,
+        /// The offending value.
+        value: f64,
+        /// What is allowed.
+        bounds: Bounds,
     },
     /// A coefficient of friction below zero.
     #[error("{place} is {value}: a coefficient of friction is zero (no friction) or more")]
@@ -68,9 +81,9 @@ pub enum SceneError {
     /// Something that is only there for space.
     #[error("this scene is in the plane: polyhedra and solids take one in space (dimension 3)")]
     NotInSpace,
-    /// A friction cone with less than three edges.
-    #[error("facets is {facets}: a friction cone in space has at least 3")]
-    TooFewFacets {
+    /// A friction cone with less than three edges, or with more than are of use.
+    #[error("facets is {facets}: a cone in space has 3 to {MOST_FACETS}")]
+    BadFacets {
         /// What was asked for.
         facets: usize,
     },

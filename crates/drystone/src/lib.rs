@@ -7,7 +7,7 @@
 //! ```
 //!
 //! - [`scene`]: gravity, friction and blocks, each checked when it is added. The built-in ones are
-//!   in [`scenes`], and [`io`] reads and writes them as versioned JSON.
+//!   in [`scenes`], and [`io`] reads and writes them as versioned JSON. [`bounds`]: which numbers they may hold.
 //! - [`geometry`]: convex polygons, their poses, areas and moments.
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
 //! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
@@ -17,6 +17,7 @@
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
 
 mod any_scene;
+pub mod bounds;
 pub mod check;
 pub mod contact;
 pub mod error;

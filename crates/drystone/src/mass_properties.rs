@@ -1,5 +1,6 @@
 //! A block's own mass, centre of mass and inertia, apart from its shape.
 
+use crate::bounds::COORDINATE;
 use crate::error::SceneError;
 use crate::geometry::{OWN_AXES, Shape, Vector3, principal};
 use crate::scene::{finite, positive};
@@ -76,10 +77,10 @@ pub(crate) struct Weighed {
 }
 
 impl MassProperties {
-    /// The centre of mass if there is one, all its numbers finite.
+    /// The centre of mass if there is one, all its numbers within bounds.
     pub(crate) fn checked_center(&self, name: &str) -> Result<Option<[f64; 3]>, SceneError> {
         for (axis, &value) in self.center_of_mass.iter().flatten().enumerate() {
-            finite(&format!("block \"{name}\": center_of_mass[{axis}]"), value)?;
+            COORDINATE.check(format_args!("block \"{name}\": center_of_mass[{axis}]"), value)?;
         }
         Ok(self.center_of_mass)
     }
@@ -88,19 +89,19 @@ impl MassProperties {
     pub(crate) fn weigh<S: Shape>(&self, name: &str, shape: &S, density: f64) -> Result<Weighed, SceneError> {
         let density = match self.mass {
             Some(mass) => {
-                positive(&format!("block \"{name}\": mass"), mass)?;
+                positive(format_args!("block \"{name}\": mass"), mass)?;
                 mass / shape.measure()
             }
             None => density,
         };
         let mass = self.mass.unwrap_or(density * shape.measure());
-        positive(&format!("block \"{name}\": mass"), mass)?;
+        positive(format_args!("block \"{name}\": mass"), mass)?;
         let (moments, axes) = match self.inertia {
             Some(tensor) => own_inertia(name, tensor, shape.moments().len())?,
             None => (shape.moments().iter().map(|moment| density * moment).collect(), shape.axes()),
         };
         for &moment in &moments {
-            positive(&format!("block \"{name}\": moment of inertia"), moment)?;
+            positive(format_args!("block \"{name}\": moment of inertia"), moment)?;
         }
         Ok(Weighed { mass, moments, axes })
     }

@@ -1,11 +1,13 @@
 //! A scene: gravity, friction and rigid blocks, each checked when it is added.
 
+use crate::bounds::{ANGLE, COORDINATE, FRICTION, GRAVITY, INERTIA, LENGTH, MASS, SLENDERNESS, TOLERANCE};
 use crate::error::SceneError;
-use crate::geometry::{Polygon, Pose, Shape, Vector3};
+use crate::geometry::{Polygon, Pose, Shape, Vector3, norm};
 use crate::interrupt::poll;
 use crate::mass_properties::{MassProperties, Weighed};
 use crate::suggest::nearest;
 use std::collections::HashMap;
+use std::fmt::Display;
 
 /// How a block is called and what it is made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,6 +75,25 @@ impl<S: Shape> Body<S> {
     pub fn principal_axes(&self) -> [Vector3; 3] {
         self.weighed.axes
     }
+
+    fn check_size(&self) -> Result<(), SceneError> {
+        let (name, width, radius) = (&self.name, self.shape.width(), self.shape.radius());
+        LENGTH.check(format_args!("block \"{name}\": the width"), width)?;
+        LENGTH.check(format_args!("block \"{name}\": the distance of its corners from its centre"), radius)?;
+        SLENDERNESS
+            .check(format_args!("block \"{name}\": the distance of its corners from its centre"), radius / width)?;
+        coordinates(format_args!("block \"{name}\": the centre of mass"), S::place(&self.pose).as_ref())
+    }
+
+    /// Bounds are for what moves; of a fixed block the mass need only be a number.
+    fn check_mass(&self) -> Result<(), SceneError> {
+        if self.fixed {
+            return Ok(());
+        }
+        MASS.check(format_args!("block \"{}\": mass", self.name), self.mass())?;
+        let check = |&moment| INERTIA.check(format_args!("block \"{}\": moment of inertia", self.name), moment);
+        self.moments().iter().try_for_each(check)
+    }
 }
 
 impl Body {
@@ -107,10 +128,13 @@ const BODY: usize = 4000;
 
 impl<S: Shape> SceneOf<S> {
     /// An empty scene. `gravity` in m/s^2; `friction` is the coefficient of every block without
-    /// one of its own.
+    /// one of its own. [`crate::bounds`] says how large and how small they may be.
     pub fn new(gravity: S::Vector, friction: f64) -> Result<Self, SceneError> {
         for (axis, &value) in gravity.as_ref().iter().enumerate() {
-            finite(&format!("the scene's gravity[{axis}]"), value)?;
+            finite(format_args!("the scene's gravity[{axis}]"), value)?;
+        }
+        if gravity.as_ref().iter().any(|&value| value != 0.0) {
+            GRAVITY.check("the size of the scene's gravity", norm(gravity.as_ref()))?;
         }
         check_friction("the scene's friction", friction)?;
         Ok(Self { gravity, friction, contact_tolerance: None, bodies: Vec::new(), index: HashMap::new() })
@@ -119,7 +143,7 @@ impl<S: Shape> SceneOf<S> {
     /// The same scene with one contact tolerance, in metres, for every pair of blocks, instead of
     /// the default that [`crate::contact`] derives from the blocks' sizes.
     pub fn with_contact_tolerance(mut self, tolerance: f64) -> Result<Self, SceneError> {
-        positive("the scene's contact_tolerance", tolerance)?;
+        TOLERANCE.check_positive("the scene's contact_tolerance", tolerance)?;
         self.contact_tolerance = Some(tolerance);
         Ok(self)
     }
@@ -146,14 +170,16 @@ impl<S: Shape> SceneOf<S> {
     ) -> Result<usize, SceneError> {
         poll(BODY);
         let BodyOptions { density, friction, fixed, own, .. } = options;
-        positive(&format!("block \"{name}\": density"), density)?;
+        positive(format_args!("block \"{name}\": density"), density)?;
         if let Some(friction) = friction {
-            check_friction(&format!("block \"{name}\": friction"), friction)?;
+            check_friction(format_args!("block \"{name}\": friction"), friction)?;
         }
         let weighed = own.weigh(&name, &shape, density)?;
         let density = own.mass.map_or(density, |mass| mass / shape.measure());
         let own = MassProperties { center_of_mass: own.center_of_mass.map(|_| [0.0; 3]), ..own };
         let body = Body { name, shape, box_size, pose, density, friction, fixed, own, weighed };
+        body.check_size()?;
+        body.check_mass()?;
         let index = self.bodies.len();
         self.index.insert(body.name.clone(), index);
         self.bodies.push(body);
@@ -228,10 +254,10 @@ impl Scene {
     ) -> Result<usize, SceneError> {
         let name = self.free_name(&options)?;
         for axis in 0..2 {
-            finite(&format!("block \"{name}\": center[{axis}]"), center[axis])?;
-            positive(&format!("block \"{name}\": size[{axis}]"), size[axis])?;
+            COORDINATE.check(format_args!("block \"{name}\": center[{axis}]"), center[axis])?;
+            LENGTH.check_positive(format_args!("block \"{name}\": size[{axis}]"), size[axis])?;
         }
-        finite(&format!("block \"{name}\": angle"), angle)?;
+        ANGLE.check(format_args!("block \"{name}\": angle"), angle)?;
         let frame = Pose { position: center, angle };
         let shape = Polygon::rectangle(size);
         match options.own.checked_center(&name)? {
@@ -259,10 +285,9 @@ impl Scene {
         options: BodyOptions,
     ) -> Result<usize, SceneError> {
         let name = self.free_name(&options)?;
-        for axis in 0..2 {
-            finite(&format!("block \"{name}\": position[{axis}]"), frame.position[axis])?;
-        }
-        finite(&format!("block \"{name}\": angle"), frame.angle)?;
+        coordinates(format_args!("block \"{name}\": position"), &frame.position)?;
+        ANGLE.check(format_args!("block \"{name}\": angle"), frame.angle)?;
+        within_reach(&name, vertices)?;
         if let Some(own) = options.own.checked_center(&name)? {
             return self.push_about(name, vertices, frame, own, options);
         }
@@ -288,16 +313,33 @@ impl Scene {
     }
 }
 
-pub(crate) fn finite(place: &str, value: f64) -> Result<(), SceneError> {
-    if value.is_finite() { Ok(()) } else { Err(SceneError::NotFinite { place: place.to_owned(), value }) }
+/// Refuses coordinates of a place that are out of bounds.
+pub(crate) fn coordinates(place: impl Display, values: &[f64]) -> Result<(), SceneError> {
+    let mut numbered = values.iter().enumerate();
+    numbered.try_for_each(|(axis, &value)| COORDINATE.check(format_args!("{place}[{axis}]"), value))
 }
 
-pub(crate) fn positive(place: &str, value: f64) -> Result<(), SceneError> {
-    finite(place, value)?;
-    if value > 0.0 { Ok(()) } else { Err(SceneError::NotPositive { place: place.to_owned(), value }) }
+/// The same for corners; what is no number is left to the shape, which numbers it too.
+pub(crate) fn within_reach<const N: usize>(name: &str, vertices: &[[f64; N]]) -> Result<(), SceneError> {
+    let far = |vertex: &[f64; N]| vertex.iter().all(|x| x.is_finite()) && !vertex.iter().all(|&x| COORDINATE.hold(x));
+    match vertices.iter().position(far) {
+        Some(vertex) => coordinates(format_args!("block \"{name}\": vertex {vertex}"), &vertices[vertex]),
+        None => Ok(()),
+    }
 }
 
-fn check_friction(place: &str, value: f64) -> Result<(), SceneError> {
+pub(crate) fn finite(place: impl Display, value: f64) -> Result<(), SceneError> {
+    if value.is_finite() { Ok(()) } else { Err(SceneError::NotFinite { place: place.to_string(), value }) }
+}
+
+pub(crate) fn positive(place: impl Display + Copy, value: f64) -> Result<(), SceneError> {
     finite(place, value)?;
-    if value >= 0.0 { Ok(()) } else { Err(SceneError::NegativeFriction { place: place.to_owned(), value }) }
+    if value > 0.0 { Ok(()) } else { Err(SceneError::NotPositive { place: place.to_string(), value }) }
+}
+
+fn check_friction(place: impl Display, value: f64) -> Result<(), SceneError> {
+    if value < 0.0 {
+        return Err(SceneError::NegativeFriction { place: place.to_string(), value });
+    }
+    FRICTION.check(place, value)
 }

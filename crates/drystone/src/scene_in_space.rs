@@ -1,10 +1,11 @@
 //! Scenes of solids.
 
 use crate::{
+    bounds::LENGTH,
     contact::{RELATIVE_TOLERANCE, overlapping_pieces},
     error::SceneError,
     geometry::{PoseInSpace, Shape, Solid, SolidFault, Vector3},
-    scene::{Body, BodyOptions, SceneOf, finite, positive},
+    scene::{Body, BodyOptions, SceneOf, coordinates, within_reach},
 };
 
 /// Blocks under gravity in space.
@@ -27,7 +28,7 @@ impl SceneInSpace {
         let name = self.free_name(&options)?;
         let pose = checked(&name, "center", pose)?;
         for (axis, &side) in size.iter().enumerate() {
-            positive(&format!("block \"{name}\": size[{axis}]"), side)?;
+            LENGTH.check_positive(format_args!("block \"{name}\": size[{axis}]"), side)?;
         }
         let shape = Solid::cuboid(size);
         match options.own.checked_center(&name)? {
@@ -53,6 +54,7 @@ impl SceneInSpace {
     ) -> Result<usize, SceneError> {
         let name = self.free_name(&options)?;
         let frame = checked(&name, "position", frame)?;
+        pieces.iter().try_for_each(|piece| within_reach(&name, piece))?;
         if let Some(own) = options.own.checked_center(&name)? {
             return self.push_about(name, pieces, frame, own, options);
         }
@@ -98,17 +100,20 @@ impl SceneInSpace {
 
 /// A pose of finite numbers, its quaternion scaled to length one.
 fn checked(name: &str, place: &str, pose: PoseInSpace) -> Result<PoseInSpace, SceneError> {
-    for axis in 0..3 {
-        finite(&format!("block \"{name}\": {place}[{axis}]"), pose.position[axis])?;
+    coordinates(format_args!("block \"{name}\": {place}"), &pose.position)?;
+    if let Some(k) = pose.orientation.iter().position(|q| !q.is_finite()) {
+        let place = format!("block \"{name}\": orientation[{k}]");
+        return Err(SceneError::NotFinite { place, value: pose.orientation[k] });
     }
-    for (k, &value) in pose.orientation.iter().enumerate() {
-        finite(&format!("block \"{name}\": orientation[{k}]"), value)?;
-    }
-    let length = pose.orientation.iter().map(|q| q * q).sum::<f64>().sqrt();
-    if length == 0.0 {
+    let largest = pose.orientation.iter().fold(0.0, |largest: f64, q| largest.max(q.abs()));
+    if largest == 0.0 {
         return Err(SceneError::ZeroOrientation { body: name.to_owned() });
     }
+    // Squares of other numbers may be none.
+    let scale = if (1e-100..1e100).contains(&largest) { 1.0 } else { largest };
+    let orientation = pose.orientation.map(|q| q / scale);
+    let length = orientation.iter().map(|q| q * q).sum::<f64>().sqrt();
     // Within rounding of one it stays as it is, so that a stored orientation comes back bit for bit.
     let unit = if (length - 1.0).abs() <= 4.0 * f64::EPSILON { 1.0 } else { length };
-    Ok(PoseInSpace { orientation: pose.orientation.map(|q| q / unit), ..pose })
+    Ok(PoseInSpace { orientation: orientation.map(|q| q / unit), ..pose })
 }

@@ -61,16 +61,34 @@ fn numbers_that_cannot_be_are_refused_with_block_and_quantity() {
         (add(here, size, 0.0, nan, None), "block \"brick\": density is NaN: give a finite"),
         (add(here, size, 0.0, 1.0, Some(-0.1)), "block \"brick\": friction is -0.1: a coefficient"),
         (add(here, size, 0.0, 1.0, Some(nan)), "block \"brick\": friction is NaN: give a finite"),
+        (
+            add(here, [1e-200, 1.0], 0.0, 1.0, None),
+            "block \"brick\": size[0] is 1e-200 m: it must be from 1e-12 to 1e12 m",
+        ),
+        (add([0.0, -1e13], size, 0.0, 1.0, None), "block \"brick\": center[1] is -1e13 m: it must be from -1e12 to"),
+        (add(here, size, 1e300, 1.0, None), "block \"brick\": angle is 1e300 rad: it must be from -1e12"),
+        (
+            add(here, size, 0.0, 1.0, Some(1e7)),
+            "block \"brick\": friction is 1e7: it must be at most 1e6: with 1e6 nothing",
+        ),
+        (add(here, [1e12, 1e-2], 0.0, 1e-9, None), "block \"brick\": the distance of its corners from its centre is 5"),
         // Each is fine, their product is not.
-        (add(here, [1e-200, 1e-200], 0.0, 1.0, None), "block \"brick\": mass is 0: it must be"),
-        (add(here, [1e200, 1e200], 0.0, 1.0, None), "block \"brick\": mass is inf: give a finite"),
+        (add(here, [1e-10, 1e-10], 0.0, 1e-300, None), "block \"brick\": mass is 1e-320 kg: it must be"),
+        (add(here, [1e-10, 1e-10], 0.0, 1e-320, None), "block \"brick\": mass is 0: it must be"),
+        (add(here, [1e10, 1e10], 0.0, 1e300, None), "block \"brick\": mass is inf: give a finite"),
+        (add(here, [1.0, 1.0], 0.0, 1e25, None), "block \"brick\": mass is 1e25 kg: it must be from 1e-24 to"),
     ];
     for (text, expected) in cases {
         assert!(text.starts_with(expected), "{text}");
     }
     assert!(matches!(Scene::new([nan, 0.0], 0.0), Err(SceneError::NotFinite { .. })));
     assert!(matches!(Scene::new([0.0, 0.0], -1.0), Err(SceneError::NegativeFriction { .. })));
-    for tolerance in [0.0, -1.0, nan] {
+    for gravity in [1e-300, 1e13] {
+        assert!(matches!(Scene::new([0.0, gravity], 0.0), Err(SceneError::OutOfBounds { .. })));
+    }
+    let far = empty().add_polygon(&[[0.0, 0.0], [1e200, 0.0], [0.0, 1e200]], named("far")).unwrap_err();
+    assert!(far.to_string().starts_with("block \"far\": vertex 1[0] is 1e200 m"), "{far}");
+    for tolerance in [0.0, -1.0, nan, 1e-30, 1e30] {
         assert!(empty().with_contact_tolerance(tolerance).is_err());
     }
 }

@@ -11,6 +11,7 @@
 //! there are is a matter of the shape: `approach_in_plane.rs`, `approach_in_space.rs`. Here they are kept pair by pair.
 
 use super::{ContactId, broad_phase, pair_tolerance, tolerance_of};
+use crate::bounds::MOST_FRICTION_IN_MOTION;
 use crate::{
     geometry::{Numbers, Shape, norm},
     interrupt::poll,
@@ -246,7 +247,7 @@ impl<S: Approaching> ApproachFinder<S> {
             tolerance: pair_tolerance(scene, a, b),
             reach: bodies.iter().map(|&i| reach(scene, i, &travel[i])).sum(),
             travel: bodies.map(|i| travel[i]),
-            friction: scene.pair_friction(bodies[0], bodies[1]),
+            friction: scene.pair_friction(bodies[0], bodies[1]).min(MOST_FRICTION_IN_MOTION),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! How a built-in scene describes itself and its parameters.
 
 use crate::any_scene::AnyScene;
+use crate::bounds::FRICTION;
 use crate::error::SceneError;
 use crate::suggest::nearest;
 use serde_json::Value;
@@ -59,7 +60,7 @@ pub(super) const fn number(name: &'static str, default: f64, range: [f64; 2], su
 
 /// The coefficient of friction of the whole scene.
 pub(super) const fn friction(default: f64) -> Parameter {
-    number("friction", default, [0.0, f64::INFINITY], "coefficient of friction of every block")
+    number("friction", default, [0.0, FRICTION.most], "coefficient of friction of every block")
 }
 
 /// The start of a pseudo-random sequence. Numbers up to 2^53 survive JSON.

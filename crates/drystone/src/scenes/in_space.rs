@@ -1,6 +1,7 @@
 //! Scenes of cuboids, and planar scenes given a thickness.
 
 use super::entry::{SceneEntry, friction, integer};
+use crate::bounds::LENGTH;
 use crate::error::SceneError;
 use crate::geometry::{PoseInSpace, Shape};
 use crate::mass_properties::MassProperties;
@@ -71,9 +72,9 @@ pub fn brick_wall(rows: usize, columns: usize, friction: f64) -> Result<SceneInS
 /// along y. Masses stay what they are.
 ///
 /// # Errors
-/// [`SceneError::NotPositive`] for a depth that is not above zero.
+/// [`SceneError`] for a depth that is not above zero or out of bounds, and what [`SceneInSpace::add_solid`] refuses.
 pub fn extruded(scene: &Scene, depth: f64) -> Result<SceneInSpace, SceneError> {
-    crate::scene::positive("the depth of an extruded scene", depth)?;
+    LENGTH.check_positive("the depth of an extruded scene", depth)?;
     let [gx, gy] = scene.gravity();
     let mut solid = SceneInSpace::new([gx, 0.0, gy], scene.friction())?;
     if let Some(tolerance) = scene.contact_tolerance() {

@@ -1,14 +1,17 @@
 //! What can be wrong with what a simulation is given, and how a step can fail.
 
-use crate::error::SceneError;
+use crate::{
+    bounds::{Bounds, COORDINATE, Plain, TIME_STEP},
+    error::SceneError,
+};
 use thiserror::Error;
 
 /// Bad input to a simulation.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SimulationError {
-    /// A time step that is not above zero.
-    #[error("dt is {value}: a time step is a finite number of seconds greater than zero")]
+    /// A time step that is not above zero, or out of [`bounds`](crate::bounds).
+    #[error("dt is {}: a time step is {TIME_STEP}", Plain(*.value))]
     TimeStep {
         /// The value.
         value: f64,
@@ -34,6 +37,18 @@ pub enum SimulationError {
         quantity: &'static str,
         /// The value.
         value: f64,
+    },
+    /// A force, an impulse, a velocity or a place out of [`bounds`](crate::bounds).
+    #[error("block \"{body}\": {quantity} has {}: it must be {bounds}: {}", Plain(*.value), .bounds.advice)]
+    OutOfBounds {
+        /// The block.
+        body: String,
+        /// What was given.
+        quantity: &'static str,
+        /// The value.
+        value: f64,
+        /// What is allowed.
+        bounds: Bounds,
     },
     /// A velocity or a push for a block that never moves.
     #[error("block \"{body}\" is fixed: it takes no {quantity}")]
@@ -80,9 +95,9 @@ pub enum StepFailure {
         /// A time step in which it turns by less.
         dt: f64,
     },
-    /// Positions or velocities have left the range of numbers.
-    #[error("block \"{body}\": its motion is not finite any more")]
-    NotFinite {
+    /// A position or a velocity has left its [`bounds`](crate::bounds), or is no number any more.
+    #[error("block \"{body}\": its place or velocity is beyond {:e} m, m/s or rad/s", COORDINATE.most)]
+    OutOfBounds {
         /// The block.
         body: String,
     },
@@ -94,7 +109,7 @@ impl StepFailure {
         match self {
             Self::Unsolved { .. } => "unsolved",
             Self::TooFast { .. } => "too_fast",
-            Self::NotFinite { .. } => "not_finite",
+            Self::OutOfBounds { .. } => "out_of_bounds",
         }
     }
 }

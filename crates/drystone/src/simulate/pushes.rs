@@ -6,15 +6,19 @@ use super::{
     velocity_level::wrench,
     world::World,
 };
-use crate::geometry::minus_of;
+use crate::{
+    bounds::{Bounds, COORDINATE, PUSH, VELOCITY},
+    geometry::minus_of,
+};
 
 impl<S: Moving> World<S> {
     /// Sets a block's velocity in world axes: m/s, then rad/s.
     ///
     /// # Errors
-    /// [`SimulationError::Fixed`], [`SimulationError::NotFinite`], [`SceneError::UnknownName`].
+    /// [`SimulationError::Fixed`], [`SimulationError::NotFinite`], [`SimulationError::OutOfBounds`],
+    /// [`SceneError::UnknownName`].
     pub fn set_velocity(&mut self, name: &str, velocity: S::Velocity) -> Result<(), SimulationError> {
-        let i = self.movable(name, "velocity", velocity.as_ref())?;
+        let i = self.movable(name, "velocity", velocity.as_ref(), VELOCITY)?;
         self.velocities[i] = S::to_own_axes(&self.scene.bodies()[i], &velocity);
         Ok(())
     }
@@ -60,11 +64,11 @@ impl<S: Moving> World<S> {
         wrench_there: S::Velocity,
         at: Option<S::Vector>,
     ) -> Result<(usize, S::Velocity), SimulationError> {
-        let i = self.movable(name, quantity, wrench_there.as_ref())?;
+        let i = self.movable(name, quantity, wrench_there.as_ref(), PUSH)?;
         let body = &self.scene.bodies()[i];
         let mut total = S::to_own_axes(body, &wrench_there);
         if let Some(at) = at {
-            self.movable(name, quantity, at.as_ref())?;
+            self.movable(name, quantity, at.as_ref(), COORDINATE)?;
             let mut force = S::Vector::default();
             force.as_mut().copy_from_slice(split::<S>(&wrench_there).0);
             let levers = S::levers(&S::outline(body), minus_of(minus_of(at, &self.origin), &S::place(&body.pose)));
@@ -75,13 +79,22 @@ impl<S: Moving> World<S> {
         Ok((i, total))
     }
 
-    fn movable(&self, name: &str, quantity: &'static str, values: &[f64]) -> Result<usize, SimulationError> {
+    fn movable(
+        &self,
+        name: &str,
+        quantity: &'static str,
+        values: &[f64],
+        bounds: Bounds,
+    ) -> Result<usize, SimulationError> {
         let i = self.scene.index_of(name)?;
         let body = || name.to_owned();
         if self.scene.bodies()[i].fixed {
             return Err(SimulationError::Fixed { body: body(), quantity });
         }
-        match values.iter().find(|value| !value.is_finite()) {
+        match values.iter().find(|&&value| !bounds.hold(value)) {
+            Some(&value) if value.is_finite() => {
+                Err(SimulationError::OutOfBounds { body: body(), quantity, value, bounds })
+            }
             Some(&value) => Err(SimulationError::NotFinite { body: body(), quantity, value }),
             None => Ok(i),
         }

@@ -13,12 +13,14 @@ use super::{
     world::World,
 };
 use crate::{
+    bounds::{COORDINATE, VELOCITY},
     contact::{
         approach::{ApproachOf, MOST_TURN, turn},
         pair_tolerance,
     },
     geometry::norm,
     interrupt::or_else,
+    scene::Body,
 };
 use drystone_lcp::Counts;
 use std::time::{Duration, Instant};
@@ -216,9 +218,14 @@ impl<S: Moving> World<S> {
 
     /// The motionless set of the step.
     fn find_motionless(&self, motion: &Motion<S>) -> Result<Vec<bool>, StepFailure> {
-        let wild = motion.velocities.iter().position(|v| !v.as_ref().iter().all(|v| v.is_finite()));
-        if let Some(i) = wild {
-            return Err(StepFailure::NotFinite { body: self.scene.bodies()[i].name.clone() });
+        let dt = self.options.dt;
+        let wild = |(body, velocity): (&Body<S>, &S::Velocity)| {
+            let (place, velocity) = (S::place(&body.pose), velocity.as_ref());
+            let mut arrival = place.as_ref().iter().zip(velocity).map(|(x, v)| x + dt * v);
+            !velocity.iter().all(|&v| VELOCITY.hold(v)) || !arrival.all(|x| COORDINATE.hold(x))
+        };
+        if let Some(i) = self.scene.bodies().iter().zip(&motion.velocities).position(wild) {
+            return Err(StepFailure::OutOfBounds { body: self.scene.bodies()[i].name.clone() });
         }
         Ok(motionless_bodies(&self.scene, &motion.velocities, self.options.dt))
     }

@@ -12,6 +12,7 @@ use super::{
     velocity_level::VelocityLevel,
 };
 use crate::{
+    bounds::TIME_STEP,
     contact::{ContactId, approach::ApproachFinder},
     error::SceneError,
     formulate::Cones,
@@ -126,7 +127,7 @@ impl<S: Moving> World<S> {
     ///
     /// # Errors
     /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`], [`SimulationError::NoSuchLaw`];
-    /// [`SceneError::Overlap`] if blocks overlap, [`SceneError::TooFewFacets`].
+    /// [`SceneError::Overlap`] if blocks overlap, [`SceneError::BadFacets`].
     pub fn new(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
         let origin = origin_of(&scene);
         let scene = moved(scene, -1.0, &origin);
@@ -138,7 +139,7 @@ impl<S: Moving> World<S> {
     /// there.
     pub(super) fn resting(scene: SceneOf<S>, origin: S::Vector, options: Options) -> Result<Self, SimulationError> {
         let Options { dt, restitution, formulation, cones, .. } = options;
-        if !(dt.is_finite() && dt > 0.0) {
+        if !TIME_STEP.hold(dt) {
             return Err(SimulationError::TimeStep { value: dt });
         }
         if !(0.0..=1.0).contains(&restitution) {
