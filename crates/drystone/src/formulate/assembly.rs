@@ -4,7 +4,7 @@ use super::{
     answers::{Acceleration, ContactForce},
     block_rows::BlockRows,
     block_set::BlockSet,
-    cones::{Cones, cone_edges},
+    cones::{Cones, STEEP, cone_edges},
     generator::{Bodies, Generator, Wrench},
     part::{Assemble, Components, Part},
 };
@@ -58,7 +58,7 @@ impl Assembly {
     /// [`Self::new`] with a choice of friction cones, which the plane has no need of.
     ///
     /// # Errors
-    /// [`SceneError::Overlap`] if blocks overlap; [`SceneError::TooFewFacets`].
+    /// [`SceneError::Overlap`] if blocks overlap; [`SceneError::BadFacets`].
     pub fn with_cones<S: Assemble>(scene: &SceneOf<S>, cones: Cones) -> Result<Self, SceneError> {
         cones.check()?;
         let bodies: Vec<Part> = scene.bodies().iter().map(S::part).collect();
@@ -97,8 +97,8 @@ impl Assembly {
         self.axis_of = vec![None; self.contacts.contacts.len()];
         for (index, contact) in self.contacts.contacts.iter().enumerate() {
             poll(GENERATOR);
-            let edges = self.edges(contact).into_iter();
-            self.generators.extend(edges.map(|direction| spanning.generator(index, contact, direction)));
+            let directions = self.directions(contact).into_iter();
+            self.generators.extend(directions.map(|direction| spanning.generator(index, contact, direction)));
             // An axis adds no force that the edges do not have, but one number instead of several says that a contact is
             // pressed straight.
             if contact.friction > 0.0 {
@@ -119,13 +119,15 @@ impl Assembly {
         self.components.len() == 3
     }
 
-    /// The edges of a contact's friction cone.
-    fn edges(&self, contact: &Contact) -> Vec<[f64; 3]> {
+    /// The directions that span a contact's friction cone: its edges, and its normal where that is of use.
+    fn directions(&self, contact: &Contact) -> Vec<[f64; 3]> {
         let [nx, ny, _] = contact.normal;
-        match self.in_plane() {
+        let mut directions = match self.in_plane() {
             true => cone_edges([nx, ny], contact.friction).into_iter().map(|[x, y]| [x, y, 0.0]).collect(),
             false => self.cones.edges(contact.normal, contact.friction, self.gravity),
-        }
+        };
+        directions.extend((contact.friction > STEEP).then_some(contact.normal));
+        directions
     }
 
     /// Number of movable blocks.
@@ -248,15 +250,20 @@ impl Assembly {
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.
     pub fn magnitude(&self, solver: &ConeSolver, generator: usize) -> f64 {
         let contact = self.generators[generator].contact;
-        let straight =
-            self.axis_of[contact].map_or(0.0, |axis| self.axis_share(contact) * solver.f(self.generators.len() + axis));
+        let straight = self.axis_of[contact]
+            .map_or(0.0, |axis| self.axis_share(generator) * solver.f(self.generators.len() + axis));
         solver.f(generator) + straight
     }
 
-    /// What a force of one newton along a contact's axis is in each of its edges, newtons.
-    fn axis_share(&self, contact: usize) -> f64 {
-        let friction = self.contacts()[contact].friction;
-        if self.in_plane() { 0.5 * friction.hypot(1.0) } else { self.cones.axis_share(friction) }
+    /// What a force of one newton along the axis of its contact is in a generator, newtons.
+    fn axis_share(&self, generator: usize) -> f64 {
+        let Generator { contact, direction, .. } = self.generators[generator];
+        let Contact { friction, normal, .. } = self.contacts()[contact];
+        match () {
+            _ if friction > STEEP => f64::from(direction == normal),
+            _ if self.in_plane() => 0.5 * friction.hypot(1.0),
+            _ => self.cones.axis_share(friction),
+        }
     }
 
     /// Generators as the columns of G.
