@@ -119,7 +119,7 @@ fn own_inertia(name: &str, tensor: [[f64; 3]; 3], count: usize) -> Result<(Vec<f
     }
     for (i, row) in tensor.iter().enumerate() {
         for (j, &entry) in row.iter().enumerate() {
-            finite(&place(i, j), entry)?;
+            finite(place(i, j), entry)?;
         }
     }
     let bad = |fault: InertiaFault| SceneError::BadInertia { body: name.to_owned(), fault };
