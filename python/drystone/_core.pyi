@@ -128,6 +128,19 @@ class Scene:
     def bodies(self) -> list[Body | Solid]: ...
     def contacts(self) -> list[Contact]: ...
     def corner_touches(self) -> list[tuple[str, str]]: ...
+    def overlaps(self) -> list[tuple[str, str, float, float]]:
+        """Pairs of bodies that overlap: (a, b, depth, contact tolerance), metres."""
+
+    def explain_fall(
+        self, checked: list[str], falling: list[str]
+    ) -> tuple[
+        list[tuple[str, list[str], tuple[str, float] | None]],
+        list[tuple[str, str, float, float]],
+    ]:
+        """Falling blocks that nothing bears from below, as (name, what it touches, (nearest of the
+        others, metres)), and pairs that a ten times larger contact tolerance would make touch, as
+        (a, b, gap, that tolerance), metres."""
+
     def to_json(self) -> str: ...
     def save(self, path: str) -> None: ...
     @staticmethod

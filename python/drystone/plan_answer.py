@@ -156,6 +156,9 @@ class Plan:
                 f"Remove first: {shorten(self.order)}.{self._said_of_holds()}"
             )
         text = f"{ENDINGS.get(self.status, self.status)}; {work}."
+        if self.status == "whole_falls" and self.whole is not None:
+            # What its blocks do not bear on; its own first line says no more than this one.
+            text += "".join(f"\n{line}" for line in str(self.whole).splitlines()[1:])
         text += f"\nLargest sub-assembly reached: {counted(len(self.reached), 'block')}"
         if self.falls_next:
             text += f"; it falls if any of these is added: {shorten(self.falls_next)}"

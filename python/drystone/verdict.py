@@ -9,6 +9,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
+from drystone.bearing import Explanation, NearMiss, Unsupported
 from drystone.cones import CONES, FACETS, core_cones
 from drystone.scene import Scene
 from drystone.text import shown
@@ -128,6 +129,21 @@ class Verdict:
         bodies could slip there, however small the push."""
         return tuple(f for f in self.forces if f.at_borders and f.normal_force > 0.0)
 
+    @property
+    def unsupported(self) -> tuple[Unsupported, ...]:
+        """The falling blocks that nothing bears from below, each with the nearest of the bodies
+        that it does not touch. Looked for when asked for; empty of what stands."""
+        return self._explanation().unsupported
+
+    @property
+    def near_misses(self) -> tuple[NearMiss, ...]:
+        """Pairs of bodies of which one falls and that do not touch, but would with a contact
+        tolerance ten times larger. Looked for when asked for; empty of what stands."""
+        return self._explanation().near_misses
+
+    def _explanation(self) -> Explanation:
+        return Explanation.of(self.scene, self.names, self.falling)
+
     def __str__(self) -> str:
         work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
         if self.status != "solved":
@@ -140,7 +156,8 @@ class Verdict:
                 points += f" ({len(self.borders)} bearing where only corners or edges meet)"
             return f"Stands: {counted(len(self.names), 'block')}, {points}; {work}."
         blocks = f"{len(self.falling)} of {counted(len(self.names), 'block')}"
-        return f"Falls: {blocks} ({shorten(self.falling)}); {work}."
+        fall = f"Falls: {blocks} ({shorten(self.falling)}); {work}."
+        return "\n".join([fall, *self._explanation().lines()])
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene, in types that JSON knows."""
@@ -149,6 +166,7 @@ class Verdict:
             "status": self.status,
             "certain": self.certain,
             "falling": list(self.falling),
+            **self._explanation().to_dict(),
             "accelerations": {
                 name: row.tolist() for name, row in zip(self.names, self.accelerations, strict=True)
             },

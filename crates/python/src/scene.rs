@@ -8,11 +8,12 @@ use crate::{
 };
 use drystone::{
     AnyScene, BodyOptions, MassProperties, SceneError, SceneOf,
-    contact::find_solid_contacts,
+    contact::{find_overlaps, find_solid_contacts, find_solid_overlaps},
     find_contacts,
     formulate::{self, Assembly, Cones},
     geometry::{PoseInSpace, Shape},
     io, scenes,
+    unsupported::explain,
 };
 use numpy::PyArray2;
 use pyo3::{
@@ -414,6 +415,46 @@ impl Scene {
         let scene = self.now();
         let name = |index: usize| scene.name(index).to_owned();
         Ok(found(py, &scene)?.corner_touches.into_iter().map(|[a, b]| (name(a), name(b))).collect())
+    }
+
+    /// Every pair of bodies that overlap: (a, b, depth, contact tolerance), metres.
+    fn overlaps(&self, py: Python<'_>) -> PyResult<Vec<(String, String, f64, f64)>> {
+        let scene = self.now();
+        let found = interruptible(py, || match &*scene {
+            AnyScene::Plane(plane) => find_overlaps(plane),
+            AnyScene::Space(space) => find_solid_overlaps(space),
+        })?;
+        let name = |index: usize| scene.name(index).to_owned();
+        Ok(found.into_iter().map(|o| (name(o.bodies[0]), name(o.bodies[1]), o.depth, o.tolerance)).collect())
+    }
+
+    /// Why blocks fall that bear on nothing: ([(name, touches, nearest, distance)], [(a, b, gap, contact tolerance)]).
+    #[allow(clippy::type_complexity)]
+    fn explain_fall(
+        &self,
+        py: Python<'_>,
+        checked: Vec<String>,
+        falling: Vec<String>,
+    ) -> PyResult<(Vec<(String, Vec<String>, Option<(String, f64)>)>, Vec<(String, String, f64, f64)>)> {
+        let scene = self.now();
+        let index = |names: Vec<String>| -> Result<Vec<usize>, SceneError> {
+            names.iter().map(|name| scene.index_of(name)).collect()
+        };
+        let (checked, falling) = (raised(index(checked))?, raised(index(falling))?);
+        let found = raised(interruptible(py, || match &*scene {
+            AnyScene::Plane(plane) => explain(plane, &checked, &falling),
+            AnyScene::Space(space) => explain(space, &checked, &falling),
+        })?)?;
+        let name = |index: usize| scene.name(index).to_owned();
+        let unsupported = found.unsupported.into_iter().map(|block| {
+            let nearest = block.nearest.map(|(body, distance)| (name(body), distance));
+            (name(block.body), block.touches.into_iter().map(name).collect(), nearest)
+        });
+        let misses = found.near_misses.into_iter().map(|miss| {
+            let [a, b] = miss.bodies.map(name);
+            (a, b, miss.gap, miss.tolerance)
+        });
+        Ok((unsupported.collect(), misses.collect()))
     }
 
     fn to_json(&self, py: Python<'_>) -> PyResult<String> {

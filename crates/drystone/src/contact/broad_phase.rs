@@ -27,7 +27,7 @@ pub(super) fn candidate_pairs<S: Shape>(scene: &SceneOf<S>) -> Vec<[usize; 2]> {
 }
 
 /// Pairs whose boxes meet when box i is loosened by `reach(i)` metres, in the same order.
-pub(super) fn pairs_within<S: Shape>(bodies: &[Body<S>], reach: impl Fn(usize) -> f64) -> Vec<[usize; 2]> {
+pub(crate) fn pairs_within<S: Shape>(bodies: &[Body<S>], reach: impl Fn(usize) -> f64) -> Vec<[usize; 2]> {
     let of = |(i, body): (usize, &Body<S>)| loosened(body.shape.bounds(&body.pose), reach(i));
     let boxes: Vec<_> = bodies.iter().enumerate().map(of).collect();
     sweep(&boxes, |i| bodies[i].fixed)

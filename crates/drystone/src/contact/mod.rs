@@ -24,15 +24,17 @@ mod shared_face;
 mod solids;
 mod touch;
 
+pub(crate) use broad_phase::pairs_within;
 pub use id::{ContactId, Feature, SolidFeature, SolidPart};
-pub use solids::find_solid_contacts;
 pub(crate) use solids::overlapping_pieces;
+pub use solids::{find_solid_contacts, find_solid_overlaps};
+pub use touch::Overlap;
 
 use crate::error::SceneError;
 use crate::geometry::{Shape, Vector};
 use crate::scene::{Body, Scene, SceneOf};
 use narrow_phase::Outline;
-use touch::{Pressing, contacts_of};
+use touch::{Meetings, Pressing};
 
 /// Default contact tolerance as a share of the narrower block's width.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
@@ -74,9 +76,18 @@ pub struct ContactSet {
 /// Two fixed blocks are never in contact and may overlap: a ground may be built of several pieces.
 /// Any other overlap by more than the tolerance is [`SceneError::Overlap`]; the deepest is named.
 pub fn find_contacts(scene: &Scene) -> Result<ContactSet, SceneError> {
+    meetings(scene).contacts(scene)
+}
+
+/// Every pair of blocks that overlap by more than the tolerance, in the order of their indices.
+pub fn find_overlaps(scene: &Scene) -> Vec<Overlap> {
+    meetings(scene).overlaps
+}
+
+fn meetings(scene: &Scene) -> Meetings {
     let bodies = scene.bodies();
     let outlines: Vec<Outline> = bodies.iter().map(Outline::of).collect();
-    contacts_of(scene, &broad_phase::candidate_pairs(scene), |[a, b], tolerance| {
+    Meetings::of(scene, &broad_phase::candidate_pairs(scene), |[a, b], tolerance| {
         let origin = Vector::from_array(bodies[a].pose.position);
         let offset = Vector::from_array(bodies[b].pose.position) - origin;
         narrow_phase::touch(&outlines[a], &outlines[b], offset, tolerance).map(|p| Pressing {

@@ -7,7 +7,7 @@ use super::{
     id::{SolidFeature, SolidPart},
     separation::{Between, Separation, along_edges, along_faces, direction},
     shared_face::{SharedCorner, shared_corners},
-    touch::{Border, Pressing, Touch, contacts_of},
+    touch::{Border, Meetings, Overlap, Pressing, Touch},
 };
 use crate::{
     error::SceneError,
@@ -50,9 +50,18 @@ pub(super) struct TouchPoint {
 /// # Errors
 /// [`SceneError::Overlap`].
 pub fn find_solid_contacts(scene: &SceneOf<Solid>) -> Result<ContactSet, SceneError> {
+    meetings(scene).contacts(scene)
+}
+
+/// Every pair of solids that overlap; see [`super::find_overlaps`].
+pub fn find_solid_overlaps(scene: &SceneOf<Solid>) -> Vec<Overlap> {
+    meetings(scene).overlaps
+}
+
+fn meetings(scene: &SceneOf<Solid>) -> Meetings {
     let bodies = scene.bodies();
     let placed: Vec<Placed> = bodies.iter().map(Placed::of).collect();
-    contacts_of(scene, &candidate_pairs(scene), |[a, b], tolerance| {
+    Meetings::of(scene, &candidate_pairs(scene), |[a, b], tolerance| {
         let origin = Vector3::from_array(bodies[a].pose.position);
         let offset = Vector3::from_array(bodies[b].pose.position) - origin;
         let touch = touch_of_bodies(&placed[a], &placed[b], offset, tolerance);

@@ -39,56 +39,75 @@ pub(super) struct Pressing {
 /// Operations to look at a pair of blocks, about.
 const PAIR: usize = 1000;
 
-/// The contacts of the candidate pairs of a scene; `touch` is given a pair and its tolerance, metres.
-///
-/// # Errors
-/// [`SceneError::Overlap`]; the deepest is named.
-pub(super) fn contacts_of<S: Shape>(
-    scene: &SceneOf<S>,
-    pairs: &[[usize; 2]],
-    touch: impl Fn([usize; 2], f64) -> Touch<Pressing>,
-) -> Result<ContactSet, SceneError> {
-    let bodies = scene.bodies();
-    let mut found = ContactSet { candidate_pairs: pairs.len(), ..ContactSet::default() };
-    let mut borders: Vec<(usize, MetBorder)> = Vec::new();
-    let mut deepest: Option<([usize; 2], f64)> = None;
-    for &[a, b] in pairs {
-        poll(PAIR);
-        let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
-        let contact = |p: Pressing| Contact {
-            id: ContactId { bodies: [a, b], feature: p.feature },
-            bodies: [a, b],
-            point: p.point,
-            normal: p.normal,
-            gap: p.gap,
-            friction: scene.pair_friction(a, b),
-        };
-        match touch([a, b], tolerance) {
-            Touch::Apart => {}
-            Touch::AtBorders(met) => {
-                found.corner_touches.push([a, b]);
-                borders.extend(met.into_iter().map(|Border { points, parting }| {
-                    let contacts = points.into_iter().map(contact).collect();
-                    (found.contacts.len(), MetBorder { bodies: [a, b], contacts, parting, tolerance })
-                }));
-            }
-            Touch::Overlap { depth } => {
-                if deepest.is_none_or(|(_, most)| depth > most) {
-                    deepest = Some(([a, b], depth));
+/// Two bodies that occupy the same place by more than the contact tolerance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// Indices of the two, the lower first.
+    pub bodies: [usize; 2],
+    /// The shortest way to part them, metres; of bodies of several pieces, that of the deepest two pieces.
+    pub depth: f64,
+    /// The pair's contact tolerance, metres.
+    pub tolerance: f64,
+}
+
+/// How all candidate pairs of a scene meet.
+#[derive(Default)]
+pub(super) struct Meetings {
+    contacts: ContactSet,
+    /// In the order of the pairs.
+    pub overlaps: Vec<Overlap>,
+}
+
+impl Meetings {
+    /// `touch` is given a pair and its tolerance, metres.
+    pub fn of<S: Shape>(
+        scene: &SceneOf<S>,
+        pairs: &[[usize; 2]],
+        touch: impl Fn([usize; 2], f64) -> Touch<Pressing>,
+    ) -> Self {
+        let bodies = scene.bodies();
+        let mut found = ContactSet { candidate_pairs: pairs.len(), ..ContactSet::default() };
+        let mut borders: Vec<(usize, MetBorder)> = Vec::new();
+        let mut overlaps = Vec::new();
+        for &[a, b] in pairs {
+            poll(PAIR);
+            let tolerance = pair_tolerance(scene, &bodies[a], &bodies[b]);
+            let contact = |p: Pressing| Contact {
+                id: ContactId { bodies: [a, b], feature: p.feature },
+                bodies: [a, b],
+                point: p.point,
+                normal: p.normal,
+                gap: p.gap,
+                friction: scene.pair_friction(a, b),
+            };
+            match touch([a, b], tolerance) {
+                Touch::Apart => {}
+                Touch::AtBorders(met) => {
+                    found.corner_touches.push([a, b]);
+                    borders.extend(met.into_iter().map(|Border { points, parting }| {
+                        let contacts = points.into_iter().map(contact).collect();
+                        (found.contacts.len(), MetBorder { bodies: [a, b], contacts, parting, tolerance })
+                    }));
                 }
+                Touch::Overlap { depth } => overlaps.push(Overlap { bodies: [a, b], depth, tolerance }),
+                Touch::At(points) => found.contacts.extend(points.into_iter().map(contact)),
             }
-            Touch::At(points) => found.contacts.extend(points.into_iter().map(contact)),
         }
+        found.take_in(borders, |i| bodies[i].fixed);
+        Self { contacts: found, overlaps }
     }
-    found.take_in(borders, |i| bodies[i].fixed);
-    match deepest {
-        None => Ok(found),
-        Some(([a, b], depth)) => Err(SceneError::Overlap {
-            a: bodies[a].name.clone(),
-            b: bodies[b].name.clone(),
-            depth,
-            tolerance: pair_tolerance(scene, &bodies[a], &bodies[b]),
-        }),
+
+    /// The contacts, if nothing overlaps.
+    ///
+    /// # Errors
+    /// [`SceneError::Overlap`]; the deepest is named, of equal ones the first.
+    pub fn contacts<S: Shape>(self, scene: &SceneOf<S>) -> Result<ContactSet, SceneError> {
+        let deeper = |deepest: Overlap, other: Overlap| if other.depth > deepest.depth { other } else { deepest };
+        let Some(Overlap { bodies, depth, tolerance }) = self.overlaps.into_iter().reduce(deeper) else {
+            return Ok(self.contacts);
+        };
+        let [a, b] = bodies.map(|body| scene.bodies()[body].name.clone());
+        Err(SceneError::Overlap { a, b, depth, tolerance })
     }
 }
 

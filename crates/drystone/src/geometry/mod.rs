@@ -1,5 +1,6 @@
 //! Shapes and where they stand. No physics beyond measure and moments, no names of blocks.
 
+mod distance;
 mod hull;
 mod polygon;
 mod polyhedron;
@@ -11,6 +12,7 @@ mod solid;
 mod sweep;
 mod vectors;
 
+pub(crate) use distance::distance;
 pub(crate) use hull::convex_outline;
 pub use parry2d_f64::math::Vector;
 pub use parry3d_f64::math::Vector as Vector3;

@@ -107,6 +107,11 @@ impl Piece {
         ahead < -apart || dot(there, there) - ahead * ahead > apart * apart
     }
 
+    /// The corners in the world, metres.
+    pub(crate) fn vertices(&self) -> &[[f64; 3]] {
+        &self.vertices
+    }
+
     /// How far the other piece is ahead along a unit vector, metres.
     fn gap(&self, other: &Self, n: [f64; 3]) -> f64 {
         let along = |vertices: &[[f64; 3]], start, pick: fn(f64, f64) -> f64| {
