@@ -10,10 +10,13 @@ from warnings import warn
 
 from drystone import _core, weight
 from drystone.body import Contact, snapshot
+from drystone.overlaps import Overlap
 from drystone.weight import Inertia
 
 if TYPE_CHECKING:
     from typing_extensions import Self
+
+    from drystone.viewer import Page
 
 Point = Sequence[float]
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
@@ -392,6 +395,12 @@ class Scene:
             for c in self._core.contacts()
         ]
 
+    @property
+    def overlaps(self) -> list[Overlap]:
+        """Every pair of bodies that overlap by more than the contact tolerance; a scene with one
+        has no contacts and no verdict. Two fixed bodies may overlap."""
+        return [Overlap(*pair) for pair in self._core.overlaps()]
+
     def __len__(self) -> int:
         return len(self._core)
 
@@ -402,10 +411,22 @@ class Scene:
         return f"<Scene: {count}, friction {self.friction:g}>"
 
     def draw(self, path: str | PathLike[str]) -> None:
-        """Write a picture of the scene; the name ends in .svg or .png."""
+        """Write a picture of the scene (.svg or .png), or a page to look at it (.html).
+
+        Bodies that overlap are red; the picture says how deep.
+        """
+        if fspath(path).lower().endswith(".html"):
+            self.view().save(path)
+            return
         from drystone import pictures
 
         pictures.save(pictures.scene_figure(self), path)
+
+    def view(self) -> Page:
+        """A page with the bodies, to turn and look into; save it, or let a notebook show it."""
+        from drystone import viewer
+
+        return viewer.scene_page(self)
 
     def _repr_svg_(self) -> str:
         from drystone import pictures

@@ -8,16 +8,39 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
+from typer.core import TyperGroup
 
 from drystone import _core, scenes
-from drystone.cli.inputs import reporting_files
+from drystone.cli.inputs import load_scene, picture_path, reporting_files
 from drystone.scene import Scene
 
-scene_app = typer.Typer(help="Write a built-in scene as a scene file.", no_args_is_help=True)
+PICTURES = (".svg", ".png", ".html")
+
+
+class SceneGroup(TyperGroup):
+    """`drystone scene FILE` is `drystone scene draw FILE`."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """A word with a suffix is a file."""
+        if self.get_command(ctx, args[0]) is None and Path(args[0]).suffix:
+            args = ["draw", *args]
+        return super().resolve_command(ctx, args)
+
+
+scene_app = typer.Typer(
+    cls=SceneGroup,
+    help="Write a built-in scene as a scene file, or draw a scene.",
+    no_args_is_help=True,
+)
 
 Output = Annotated[
     Path | None,
-    typer.Option("-o", "--output", help="The scene file to write; standard output without it."),
+    typer.Option(
+        "-o",
+        "--output",
+        help="The scene file to write, or a picture (.svg, .png) or page (.html) of it; "
+        "standard output without it.",
+    ),
 ]
 
 
@@ -26,12 +49,26 @@ def root(
     context: typer.Context,
     every: Annotated[bool, typer.Option("--list", help="List the built-in scenes.")] = False,
 ) -> int:
-    """Write a built-in scene as a scene file."""
+    """Write a built-in scene as a scene file, or draw a scene."""
     if every:
         for name in scenes.__all__:
             print(f"{name:18} {_first_line(getattr(scenes, name))}")
     elif context.invoked_subcommand is None:
         print(context.get_help())
+    return 0
+
+
+@scene_app.command("draw")
+def draw(
+    scene: Annotated[str, typer.Argument(help="A scene file, or a built-in scene.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="A .svg, .png or .html to write.")],
+) -> int:
+    """Draw a scene, with blocks that overlap in red; `draw` may be left out before a file."""
+    picture = picture_path(output, ".html")
+    given = load_scene(scene)
+    with reporting_files():
+        given.draw(picture or output)
+    print(f"picture: {output}")
     return 0
 
 
@@ -45,7 +82,10 @@ def _command(builder: Callable[..., Scene], helps: dict[str, str]) -> Callable[.
             print(scene.to_json())
             return 0
         with reporting_files():
-            scene.save(output)
+            if output.suffix.lower() in PICTURES:
+                scene.draw(output)
+            else:
+                scene.save(output)
         print(f"{len(scene)} bodies written to {output}")
         return 0
 

@@ -11,10 +11,12 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
 from drystone.body import Body
+from drystone.overlaps import names_in, titled
 from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.order_bar import draw_order_bar
+from drystone.pictures.overlaps import draw_overlaps
 from drystone.pictures.shapes import (
     draw_absent,
     draw_blocks,
@@ -36,18 +38,19 @@ GHOST_MOVE = 0.35
 
 
 def scene_figure(scene: Scene) -> Figure:
-    """The bodies with their names."""
+    """The bodies with their names; what overlaps in red, with its depth."""
     if scene.dimension == 3:
         return in_space.scene_figure(scene)
     bodies = scene.bodies
     movable = [body for body in bodies if not body.fixed]
-    canvas = fitted(
-        bodies,
-        f"{counted(len(movable), 'block')}, {counted(len(scene.contacts), 'contact point')}",
-    )
-    fills = {body.name: style.STONE for body in movable}
+    overlaps = scene.overlaps
+    red = names_in(overlaps)
+    canvas = fitted(bodies, *titled(scene, overlaps))
+    fills = {b.name: style.FALLING if b.name in red else style.STONE for b in movable}
     draw_fixed(canvas, bodies)
-    draw_blocks(canvas, bodies, fills)
+    draw_blocks(canvas, bodies, fills, dict.fromkeys(red, style.FALL))
+    if overlaps:
+        draw_overlaps(canvas, bodies, overlaps)
     draw_labels(canvas, bodies, {name: name for name in fills}, fills)
     return canvas.figure
 

@@ -11,6 +11,7 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from drystone.overlaps import names_in, titled
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.axonometry import View
@@ -32,13 +33,15 @@ GHOST_MOVE = 0.35
 
 
 def scene_figure(scene: Scene) -> Figure:
-    """The bodies with their names."""
+    """The bodies with their names; what overlaps in red, with its depth below."""
     drawing = _drawing(scene)
     movable = [body.name for body in drawing.bodies if not body.fixed]
-    title = f"{counted(len(movable), 'block')}, {counted(len(scene.contacts), 'contact point')}"
-    canvas = fitted(drawing.outlines, title)
-    fills = dict.fromkeys(movable, style.STONE)
-    draw_solids(canvas, drawing, fills, labels={name: name for name in movable})
+    overlaps = scene.overlaps
+    red = names_in(overlaps)
+    canvas = fitted(drawing.outlines, *titled(scene, overlaps))
+    fills = {name: style.FALLING if name in red else style.STONE for name in movable}
+    labels = {name: name for name in movable}
+    draw_solids(canvas, drawing, fills, dict.fromkeys(red & set(movable), style.FALL), labels)
     return canvas.figure
 
 

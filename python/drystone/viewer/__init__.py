@@ -1,8 +1,8 @@
-"""Plans and runs to look at: one self-contained page each, which opens from disk.
+"""Plans, runs and scenes to look at: one self-contained page each, which opens from disk.
 
-`plan_page` and `run_page` make pages of what they are given; `Page.save` writes one, and a notebook
-shows it. The front end is in `viewer/` of the source tree, the contract between the two sides in
-`contract.py` here and `contract.ts` there.
+`plan_page`, `run_page` and `scene_page` make pages of what they are given; `Page.save` writes one,
+and a notebook shows it. The front end is in `viewer/` of the source tree, the contract between the
+two sides in `contract.py` here and `contract.ts` there.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from drystone.viewer.of_plan import Progress, plan_recording
 from drystone.viewer.of_run import run_recording
+from drystone.viewer.of_scene import scene_recording
 from drystone.viewer.page import Page
 from drystone.viewer.recording import FrameForces, Recording, Series
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from drystone.plan_answer import Plan
     from drystone.scene import Scene
 
-__all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page"]
+__all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page", "scene_page"]
 
 
 def plan_page(plan: Plan, progress: Progress | None = None) -> Page:
@@ -32,6 +33,16 @@ def plan_page(plan: Plan, progress: Progress | None = None) -> Page:
     <Page: plan, 4 frames of 4 bodies>
     """
     return Page(plan_recording(plan, progress))
+
+
+def scene_page(scene: Scene) -> Page:
+    """The bodies of a scene, those that overlap in red; see `scene_recording`.
+
+    >>> import drystone as ds
+    >>> scene_page(ds.scenes.column(4))
+    <Page: plan, 1 frames of 4 bodies>
+    """
+    return Page(scene_recording(scene))
 
 
 def run_page(
