@@ -60,16 +60,6 @@ def test_a_block_that_only_leans_on_a_wall_bears_on_nothing(dimension: int) -> N
     assert 'Block "1" touches "wall" only, not from above.' in str(verdict)
 
 
-def test_a_corner_on_a_corner_is_said_to_bear_nothing() -> None:
-    scene = ds.Scene(friction=0.5)
-    scene.add_box((0, 0), (1, 1), fixed=True, name="a")
-    scene.add_box((1, 1), (1, 1), name="b")
-    verdict = ds.check(scene)
-    if not verdict.stable:
-        assert verdict.unsupported[0].distance == 0.0
-        assert '"a" meets it at a corner' in str(verdict)
-
-
 def test_only_bodies_that_are_there_count_and_what_stands_says_nothing() -> None:
     scene = tower(0.25, 2)
     (block,) = ds.check(scene, ["1", "3"]).unsupported

@@ -73,7 +73,7 @@ fn numbers_that_cannot_be_are_refused_with_block_and_quantity() {
         ),
         (add(here, [1e12, 1e-2], 0.0, 1e-9, None), "block \"brick\": the distance of its corners from its centre is 5"),
         // Each is fine, their product is not.
-        (add(here, [1e-10, 1e-10], 0.0, 1e-300, None), "block \"brick\": mass is 1e-320 kg: it must be"),
+        (add(here, [1.0, 1.0], 0.0, 1e-320, None), "block \"brick\": mass is 1e-320 kg: it must be"),
         (add(here, [1e-10, 1e-10], 0.0, 1e-320, None), "block \"brick\": mass is 0: it must be"),
         (add(here, [1e10, 1e10], 0.0, 1e300, None), "block \"brick\": mass is inf: give a finite"),
         (add(here, [1.0, 1.0], 0.0, 1e25, None), "block \"brick\": mass is 1e25 kg: it must be from 1e-24 to"),
