@@ -97,7 +97,8 @@ class Solution:
     scaled z and q."""
     ray: NDArray[np.float64] | None
     """(n,). With "no_solution" a proof of it: ray >= 0, M' ray <= 0 and q' ray < 0 (of a `Solver`:
-    on the rows present, and zero elsewhere)."""
+    on the rows present, and zero elsewhere). M' ray is rounding of M's last digits, at most 1e-12
+    of the ray (M scaled to a unit diagonal); q' ray is at least 1e-7 of q and the ray."""
     rows: NDArray[np.int64]
     """Rows that were present, ascending: all n of them but for a `Solver`."""
 
@@ -143,7 +144,9 @@ def solve(
 
     Raises LcpError for entries that are not finite, shapes that do not match, or an M that the
     method cannot take; StartError for a start that is not a solution of its sub-problem. A problem
-    without a solution and a `pivot_limit` reached are statuses, not errors.
+    without a solution and a `pivot_limit` reached are statuses, not errors. An M written with few
+    decimals may not be semidefinite any more: where that leaves no answer, the error names its
+    least eigenvalue (M scaled to a unit diagonal).
     """
     if start is not None and not isinstance(start, Start):
         raise StartError(f"start must be an lcp.Start (see Solution.start), not {start!r:.60}")

@@ -56,12 +56,15 @@ pub enum LcpError {
         mirror: f64,
     },
     /// Dantzig's method met negative curvature: `M` is not positive semidefinite.
-    #[error("M is not positive semidefinite: the curvature at index {index} is {curvature:e}; use Lemke's method")]
+    #[error(
+        "M is not positive semidefinite: scaled to a unit diagonal it has an eigenvalue of {eigenvalue:.1e} or less \
+         (seen at index {index}); use Lemke's method, or write M with more digits if rounding did it"
+    )]
     NotSemidefinite {
-        /// Index of the row being driven to feasibility.
+        /// Index of the row at which it was seen.
         index: usize,
-        /// `y' M y` of the direction y found there (scaled so that M has a unit diagonal).
-        curvature: f64,
+        /// `y' M y / y' y` of the direction y found there, M scaled to a unit diagonal: the least eigenvalue is at most this.
+        eigenvalue: f64,
     },
     /// A row that the complete problem does not have.
     #[error("row {row} is outside a problem with {n} rows")]

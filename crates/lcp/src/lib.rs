@@ -22,6 +22,7 @@
 //! ```
 
 mod basis;
+mod certificate;
 pub mod cone;
 mod counts;
 mod error;

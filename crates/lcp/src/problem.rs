@@ -112,7 +112,7 @@ impl Problem {
         }
         let diagonal: Vec<f64> = (0..self.len()).map(|i| self.m.get(i, i)).collect();
         if let Some(index) = diagonal.iter().position(|&value| value < 0.0) {
-            return Err(LcpError::NotSemidefinite { index, curvature: diagonal[index] });
+            return Err(LcpError::NotSemidefinite { index, eigenvalue: diagonal[index] });
         }
         for column in 0..self.len() {
             let (rows, values) = self.m.column(column);
@@ -136,10 +136,18 @@ impl Problem {
             for (&index, value) in rows.iter().zip(values) {
                 let bound = diagonal[index].sqrt() * diagonal[column].sqrt();
                 if value.abs() > bound * (1.0 + SEMIDEFINITE) {
-                    return Err(LcpError::NotSemidefinite { index, curvature: 2.0 - 2.0 * value.abs() / bound });
+                    let (a, b) = (diagonal[index], diagonal[column]);
+                    return Err(LcpError::NotSemidefinite { index, eigenvalue: least_eigenvalue(a, *value, b) });
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Of the block `[a v; v b]`, scaled to a unit diagonal where that is positive.
+fn least_eigenvalue(a: f64, v: f64, b: f64) -> f64 {
+    let unit = |d: f64| -> (f64, f64) { if d > 0.0 { (d.sqrt(), 1.0) } else { (1.0, 0.0) } };
+    let ((da, a), (db, b)) = (unit(a), unit(b));
+    (a + b) / 2.0 - ((a - b) / 2.0).hypot(v.abs() / da / db)
 }

@@ -1,6 +1,6 @@
 //! Symmetric scaling to a unit diagonal, which makes every tolerance a relative one.
 
-use crate::problem::Problem;
+use crate::{certificate::PROGRESS, problem::Problem};
 
 /// `d_i = 1 / sqrt(M_ii)`, and 1 where the diagonal is not positive. With `z = D zs`, `w = D^-1 ws` the problem
 /// becomes `ws = (D M D) zs + D q`.
@@ -10,6 +10,9 @@ pub(crate) struct Scaling {
     /// Largest entry of `D q`.
     q_size: f64,
 }
+
+/// A z so many times larger than q may be one along which M is zero but for rounding.
+const LARGE: f64 = 1e10;
 
 impl Scaling {
     pub fn new(problem: &Problem) -> Self {
@@ -36,6 +39,14 @@ impl Scaling {
         self.q_size.max(scaled_z_size)
     }
 
+    /// Whether a pair with this residual lies so far out that it may be a ray: in its own scale the residual falls along
+    /// every ray. It is far if there is room for a certificate, whose progress is at most the largest violation, or if z is more
+    /// than 1e10 times larger than q.
+    pub fn is_far(&self, z: &[f64], residual: f64) -> bool {
+        let z_size = z.iter().zip(&self.d).fold(0.0, |size: f64, (z, d)| size.max((z / d).abs()));
+        is_far(z_size, self.q_size, residual)
+    }
+
     /// Residual of an unscaled pair; see [`crate::solution::residual`].
     pub fn residual(&self, w: &[f64], z: &[f64]) -> f64 {
         let (mut worst, mut z_size) = (0.0_f64, 0.0_f64);
@@ -49,4 +60,9 @@ impl Scaling {
         }
         if worst == 0.0 { 0.0 } else { worst / self.own_scale(z_size) }
     }
+}
+
+/// The same from the sizes of the scaled z and q.
+pub(crate) fn is_far(z_size: f64, q_size: f64, residual: f64) -> bool {
+    z_size > LARGE * q_size || residual * z_size.max(q_size) > PROGRESS * q_size
 }

@@ -19,7 +19,7 @@ pub struct Settings {
     pub pivot: f64,
     /// A solve counts as solved when its residual, in the problem's own scale, is at most this.
     pub residual: f64,
-    /// Most pivots in one solve; `None` means 50 n + 1000. Principal pivoting ends by itself (it never cycles), but its
+    /// Most pivots in one solve; `None` means 50 n + 1000, in Lemke's method for each of its paths. Principal pivoting ends by itself (it never cycles), but its
     /// worst case is exponential (Murty 1978).
     pub pivot_limit: Option<usize>,
 }

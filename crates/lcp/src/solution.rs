@@ -8,13 +8,14 @@ use crate::{counts::Counts, problem::Problem, scaling::Scaling};
 pub enum Status {
     /// `z` and `w` solve the problem; the residual was computed and is within the tolerance.
     Solved,
-    /// No `z >= 0` with `M z + q >= 0` exists. `Solution::ray` proves it: `y >= 0`, `M' y <= 0`, `q' y < 0`.
+    /// No `z >= 0` with `M z + q >= 0` exists. `Solution::ray` proves it: `y >= 0`, `M' y <= 0` but for rounding of M's last
+    /// digits, and `q' y < 0` by 1e-7 of q and y at least.
     NoSolution,
     /// Lemke's method ended on a ray that proves nothing for this class of matrix.
     RayTermination,
     /// The pivot limit was reached; `z` and `w` are the last complementary pair, not a solution.
     PivotLimit,
-    /// Accuracy was lost and refactoring did not bring it back; the residual says by how much.
+    /// Accuracy was lost, and neither refactoring nor further attempts brought it back; the residual says by how much.
     NumericalTrouble,
 }
 

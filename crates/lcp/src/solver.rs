@@ -10,6 +10,7 @@
 //! Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006).
 
 mod blocks;
+mod doubt;
 mod drive;
 mod follow;
 mod settle;
@@ -33,6 +34,7 @@ use crate::{
     settings::Settings,
     solution::{Solution, Status},
 };
+use doubt::{Doubtful, Repair, Zero};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -102,6 +104,9 @@ pub struct Solver {
     counts_at_solve: Counts,
     residual: f64,
     ray: Option<Vec<f64>>,
+    /// What counts as zero in the present attempt.
+    zero: Zero,
+    doubtful: Doubtful,
 }
 
 /// `q` in the caller's unit and scaled.
@@ -145,8 +150,6 @@ const STALL: usize = 2;
 /// Active `w` at or below this, in the problem's own scale, are rounding: correcting for them would only add noise
 /// along the nearly dependent rows of the active block.
 const ROUNDING: f64 = 1e-13;
-/// Rounding of a curvature relative to the square of the direction's size: some fifty units in the last place.
-const CURVATURE_ROUNDING: f64 = 1e-14;
 /// Times a solve may find new violations after recomputing `w` before the factor is built again.
 const ROUNDS: usize = 20;
 /// Residual of a direction on the active rows (unit diagonal, relative) above which it is refined once.
@@ -193,6 +196,8 @@ impl Solver {
             counts_at_solve: Counts::default(),
             residual: 0.0,
             ray: None,
+            zero: Zero::of(&settings),
+            doubtful: Doubtful::default(),
             m: Arc::new(m),
             load: Arc::new(Load { q: problem.q().to_vec(), scaled }),
             q_size: 0.0,
@@ -387,16 +392,18 @@ impl Solver {
         self.counts_at_solve = self.counts;
         self.ray = None;
         let present = self.role.iter().filter(|&&role| role != Role::Absent).count();
+        self.zero = Zero::of(&self.settings);
+        self.doubtful = Doubtful::default();
         let limit = self.counts.pivots + self.settings.pivot_limit_for(present);
         let answer = self.or_as_before(|solver| method(solver, limit));
         // Without an answer the row driven last has both z > 0 and w < 0.
-        self.settled = answer.as_ref().is_ok_and(|status| *status == Status::Solved.into());
+        self.settled &= answer.as_ref().is_ok_and(|status| *status == Status::Solved.into());
         answer
     }
 
     fn solve_present(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         let mut rounds = 0;
-        let mut repairs = [Self::refactor, Self::restart].into_iter();
+        let mut repairs = doubt::REPAIRS.iter();
         loop {
             let changed = !self.settled;
             if changed {
@@ -408,7 +415,13 @@ impl Solver {
             let fresh = changed && cycles == self.counts.major_cycles;
             match cycle {
                 Cycle::Feasible => match if fresh { self.check() } else { self.recompute() } {
-                    Checked::Solved => return Ok(Some(Status::Solved)),
+                    Checked::Solved => match self.conclude(true) {
+                        None => {
+                            self.zero.beside_q = true;
+                            continue;
+                        }
+                        answer => return Ok(answer),
+                    },
                     Checked::StillViolated if rounds < ROUNDS => {
                         rounds += 1;
                         continue;
@@ -416,19 +429,21 @@ impl Solver {
                     Checked::StillViolated | Checked::LostAccuracy => rounds = 0,
                 },
                 Cycle::Ray => return Ok(Some(Status::NoSolution)),
-                Cycle::Limit => {
-                    self.residual = self.present_residual();
-                    return Ok(Some(Status::PivotLimit));
-                }
                 Cycle::Stopped => return Ok(None),
-                Cycle::LostAccuracy => {}
+                Cycle::Limit | Cycle::LostAccuracy => {}
             }
-            let Some(repair) = repairs.next() else {
-                self.residual = self.present_residual();
-                return Ok(Some(Status::NumericalTrouble));
-            };
             self.settled = false;
-            repair(self);
+            if let Some(status) = self.late_answer() {
+                return Ok(Some(status));
+            }
+            if cycle == Cycle::Limit {
+                return Ok(Some(Status::PivotLimit));
+            }
+            let Some(repair) = repairs.next() else { return self.last_resort().map(Some) };
+            if matches!(repair, Repair::Finer) && self.certify_in_null_space()? {
+                return Ok(Some(Status::NoSolution));
+            }
+            self.repair(*repair);
         }
     }
 

@@ -25,14 +25,17 @@ mod tests;
 
 use super::Method;
 use crate::{
+    certificate::Scaled,
     counts::Counts,
     error::LcpError,
     interrupt::apart,
     matrix::SparseColumns,
     problem::Problem,
     reuse::{Start, StartError},
+    scaling::Scaling,
     settings::Settings,
     solution::{Solution, Status, residual},
+    solver::Solver,
 };
 use equilibration::Equilibration;
 use faer::{Mat, linalg::solvers::Solve};
@@ -55,27 +58,124 @@ impl Method for Lemke {
     fn solve(&self, problem: &Problem, start: Option<&Start>, settings: &Settings) -> Result<Solution, LcpError> {
         let scaling = Equilibration::new(problem.m());
         let (m, q, unit) = scaling.apply(problem)?;
-        let limit = settings.pivot_limit_for(problem.len());
-        let mut counts = Counts::default();
-        let mut attempt = |mut path: Path| {
-            let end = path.follow(limit.saturating_sub(counts.pivots));
-            counts.pivots += path.pivots;
-            counts.refactorisations += path.refactorisations;
-            Outcome { problem, settings, scaling: &scaling, m: &m, q: &q, unit, counts }.judge(&path, end)
-        };
+        let mut attempts = Attempts::new(problem, settings, &scaling, &m, &q, unit);
         if let Some(start) = start {
             let known = Known::new(problem, start, settings)?;
             let from = |active: Vec<usize>| Path::from_basis(&m, &q, settings, &active, known.order());
             let path = from(known.positive()).or_else(|| from(known.completed(&m)?)).or_else(|| from(known.reduced()?));
-            let solution = attempt(path.ok_or(StartError::Dependent)?);
-            if !matches!(solution.status, Status::RayTermination | Status::NumericalTrouble) {
-                return Ok(solution);
+            let ended = attempts.follow(path.ok_or(StartError::Dependent)?);
+            // From a start a ray proves less than from scratch.
+            if ended.is_sure && ended.solution.status != Status::RayTermination {
+                return Ok(ended.solution);
             }
         }
-        let [ones, uneven] = covering_vectors(problem.len());
-        let solution = attempt(Path::new(&m, &q, settings, ones));
-        let trouble = solution.status == Status::NumericalTrouble;
-        Ok(if trouble { attempt(Path::new(&m, &q, settings, uneven)) } else { solution })
+        let Ended { solution, is_sure } = attempts.paths_from_zero();
+        // For a symmetric M principal pivoting tells what a ray that proves nothing is worth.
+        let is_final = is_sure && solution.status != Status::RayTermination;
+        if is_final || settings.pivot_limit.is_some() || problem.require_symmetric().is_err() {
+            return Ok(solution);
+        }
+        by_principal_pivoting(problem, settings, solution)
+    }
+}
+
+/// Lemke's method alone, from scratch.
+///
+/// # Errors
+/// [`LcpError::MatrixNotFinite`] if scaling makes an entry too large.
+pub(crate) fn lemke_on(problem: &Problem, settings: &Settings) -> Result<Solution, LcpError> {
+    let scaling = Equilibration::new(problem.m());
+    let (m, q, unit) = scaling.apply(problem)?;
+    Ok(Attempts::new(problem, settings, &scaling, &m, &q, unit).paths_from_zero().solution)
+}
+
+/// For a symmetric M with which rounding spoiled the path: the answer of principal pivoting, if it has one.
+///
+/// # Errors
+/// [`LcpError::NotSemidefinite`] if that is why there is no answer.
+fn by_principal_pivoting(problem: &Problem, settings: &Settings, unsure: Solution) -> Result<Solution, LcpError> {
+    let mut solver = Solver::new(problem.clone(), settings.clone())?;
+    solver.add_rows(&(0..problem.len()).collect::<Vec<_>>())?;
+    let solution = match solver.solve() {
+        Ok(status @ (Status::Solved | Status::NoSolution)) => solver.solution(status),
+        // A z far out that may be a ray, and nobody can tell.
+        Ok(status) if unsure.status == Status::Solved => solver.solution(status),
+        Err(error) if matches!(unsure.status, Status::NumericalTrouble | Status::PivotLimit) => return Err(error),
+        _ => return Ok(unsure),
+    };
+    Ok(Solution { counts: unsure.counts + solution.counts, ..solution })
+}
+
+/// Paths on one problem, the work of all of them added up.
+struct Attempts<'a> {
+    problem: &'a Problem,
+    settings: &'a Settings,
+    scaling: &'a Equilibration,
+    m: &'a SparseColumns,
+    q: &'a [f64],
+    unit: f64,
+    counts: Counts,
+}
+
+/// What a path ended with, and whether another path could tell more.
+struct Ended {
+    solution: Solution,
+    is_sure: bool,
+}
+
+/// What counts as zero on a path that is followed because others were spoiled by rounding: a hundred times more than usual, still
+/// less than what a solution may lack.
+const COARSER: f64 = 100.0;
+
+impl<'a> Attempts<'a> {
+    fn new(
+        problem: &'a Problem,
+        settings: &'a Settings,
+        scaling: &'a Equilibration,
+        m: &'a SparseColumns,
+        q: &'a [f64],
+        unit: f64,
+    ) -> Self {
+        Self { problem, settings, scaling, m, q, unit, counts: Counts::default() }
+    }
+
+    /// Paths from `z = 0` until one is sure, or else the best of them.
+    fn paths_from_zero(&mut self) -> Ended {
+        let Settings { feasibility, pivot, .. } = *self.settings;
+        let coarse = Settings { feasibility: COARSER * feasibility, pivot: COARSER * pivot, ..self.settings.clone() };
+        let [ones, uneven] = covering_vectors(self.q.len());
+        let mut best: Option<Solution> = None;
+        for (cover, settings) in [(ones.clone(), self.settings), (uneven, self.settings), (ones, &coarse)] {
+            let ended = self.follow(Path::new(self.m, self.q, settings, cover));
+            if ended.is_sure {
+                return ended;
+            }
+            if best.as_ref().is_none_or(|best| rank(ended.solution.status) < rank(best.status)) {
+                best = Some(ended.solution);
+            }
+        }
+        let solution = best.expect("there is more than one path");
+        Ended { solution: Solution { counts: self.counts, ..solution }, is_sure: false }
+    }
+
+    fn follow(&mut self, mut path: Path) -> Ended {
+        let limit = self.settings.pivot_limit_for(self.q.len());
+        // A limit that nobody has set is one for each path.
+        let left = if self.settings.pivot_limit.is_some() { limit.saturating_sub(self.counts.pivots) } else { limit };
+        let end = path.follow(left);
+        self.counts.pivots += path.pivots;
+        self.counts.refactorisations += path.refactorisations;
+        self.judge(&path, end)
+    }
+}
+
+/// The order in which answers that are not sure are preferred.
+fn rank(status: Status) -> usize {
+    match status {
+        Status::NoSolution => 0,
+        Status::Solved => 1,
+        Status::RayTermination => 2,
+        _ => 3,
     }
 }
 
@@ -86,38 +186,66 @@ fn covering_vectors(n: usize) -> [Vec<f64>; 2] {
 }
 
 /// What a path ended with, judged in the caller's own units.
-struct Outcome<'a> {
-    problem: &'a Problem,
-    settings: &'a Settings,
-    scaling: &'a Equilibration,
-    m: &'a SparseColumns,
-    q: &'a [f64],
-    unit: f64,
-    counts: Counts,
-}
-
-impl Outcome<'_> {
-    fn judge(&self, path: &Path, end: End) -> Solution {
+impl Attempts<'_> {
+    fn judge(&self, path: &Path, end: End) -> Ended {
         let reached = self.solution(self.unscale(&path.z(), self.unit));
+        let unsure = |status, solution| Ended { solution: Solution { status, ..solution }, is_sure: false };
         match end {
-            // A ray met where z0 is zero already is a solution found too late.
-            End::Ray(_) if reached.residual <= self.settings.residual => Solution { status: Status::Solved, ..reached },
-            // Without a z part it is the ray on which the path began. Only a tie misjudged by rounding leads back there.
-            End::Ray(ray) if ray.iter().all(|&y| y == 0.0) => reached,
-            End::Ray(ray) => {
-                let ray = self.unscale(&ray, 1.0);
-                let status = if self.certifies(&ray) { Status::NoSolution } else { Status::RayTermination };
-                Solution { status, ray: Some(ray), ..reached }
-            }
-            End::Limit => Solution { status: Status::PivotLimit, ..reached },
-            End::LostAccuracy => reached,
             End::Complementary => {
                 let polished = self.solution(self.unscale(&self.polish(&path.active()), self.unit));
                 let best = if polished.residual <= reached.residual { polished } else { reached };
                 let solved = best.residual <= self.settings.residual;
-                Solution { status: if solved { Status::Solved } else { Status::NumericalTrouble }, ..best }
+                if solved { self.solved(best) } else { unsure(Status::NumericalTrouble, best) }
+            }
+            // A solution found too late, for instance a ray met where z0 is zero already.
+            _ if reached.residual <= self.settings.residual => self.solved(reached),
+            // Without a z part it is the ray on which the path began. Only a tie misjudged by rounding leads back there.
+            End::Ray(ray) if ray.iter().all(|&y| y == 0.0) => unsure(Status::NumericalTrouble, reached),
+            End::Ray(ray) => match self.certificate(&ray) {
+                Some((y, is_sure)) => {
+                    Ended { solution: Solution { status: Status::NoSolution, ray: Some(y), ..reached }, is_sure }
+                }
+                None => {
+                    let is_sure = !self.on_certificates(&ray, |scaled, y| scaled.is_nearly(y));
+                    let ray = Some(self.unscale(&ray, 1.0));
+                    Ended { solution: Solution { status: Status::RayTermination, ray, ..reached }, is_sure }
+                }
+            },
+            End::Limit => {
+                let is_sure = self.settings.pivot_limit.is_some();
+                Ended { solution: Solution { status: Status::PivotLimit, ..reached }, is_sure }
+            }
+            End::LostAccuracy => unsure(Status::NumericalTrouble, reached),
+        }
+    }
+
+    /// A pair whose residual is small: solved, unless z is so much larger than q that it is a ray.
+    fn solved(&self, pair: Solution) -> Ended {
+        let is_far = Scaling::new(self.problem).is_far(&pair.z, pair.residual);
+        if is_far {
+            let ray: Vec<f64> = pair.z.iter().zip(&self.scaling.columns).map(|(z, c)| z / c).collect();
+            if let Some((y, true)) = self.certificate(&ray) {
+                return Ended {
+                    solution: Solution { status: Status::NoSolution, ray: Some(y), ..pair },
+                    is_sure: true,
+                };
             }
         }
+        Ended { solution: Solution { status: Status::Solved, ..pair }, is_sure: !is_far }
+    }
+
+    /// The certificate that a ray, equilibrated, is, in the caller's units, and whether it is a clear one.
+    fn certificate(&self, ray: &[f64]) -> Option<(Vec<f64>, bool)> {
+        let certificate = self.on_certificates(ray, |scaled, y| scaled.certificate(y))?;
+        Some((certificate.y.iter().zip(&self.scaling.rows).map(|(y, r)| y * r).collect(), certificate.is_clear))
+    }
+
+    /// Asks something of a ray, whose z part is equilibrated by columns, as a certificate, which is by rows.
+    fn on_certificates<T>(&self, ray: &[f64], ask: impl Fn(&Scaled, &[f64]) -> T) -> T {
+        let weights = self.scaling.columns.iter().zip(&self.scaling.rows).map(|(c, r)| c / r);
+        let y: Vec<f64> = ray.iter().zip(weights).map(|(y, weight)| y * weight).collect();
+        let rows: Vec<usize> = (0..y.len()).collect();
+        ask(&Scaled { m: self.m, q: self.q, rows: &rows }, &y)
     }
 
     /// A pair with its residual, not solved until judged so.
@@ -160,15 +288,5 @@ impl Outcome<'_> {
             z[j] = z_active[(i, 0)].max(0.0);
         }
         z
-    }
-
-    /// Whether `y >= 0`, `M' y <= 0` and `q' y < 0`, to the residual's tolerance in the equilibrated problem. Any feasible z
-    /// would give `0 <= y' (M z + q) < 0`.
-    fn certifies(&self, y: &[f64]) -> bool {
-        let scaled: Vec<f64> = y.iter().zip(&self.scaling.rows).map(|(y, r)| y / r).collect();
-        let size = scaled.iter().fold(0.0, |size: f64, y| size.max(y.abs()));
-        let rise = (0..self.q.len()).map(|j| self.m.column_dot(j, &scaled)).fold(0.0, f64::max);
-        let progress: f64 = scaled.iter().zip(self.q).map(|(y, q)| y * q).sum();
-        size.is_finite() && rise <= self.settings.residual * size && progress < -self.settings.residual * size
     }
 }

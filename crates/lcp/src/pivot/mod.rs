@@ -7,6 +7,7 @@ mod lemke;
 pub use block::Block;
 pub use dantzig::Dantzig;
 pub use lemke::Lemke;
+pub(crate) use lemke::lemke_on;
 
 use crate::{error::LcpError, problem::Problem, reuse::Start, settings::Settings, solution::Solution};
 

@@ -1,7 +1,12 @@
 //! The pivots: major cycles that drive one row each, and the minor cycles within them.
 
-use super::{CURVATURE_ROUNDING, Cycle, REFINE, Role, STALL, Solver, largest, take};
+use super::{
+    Cycle, REFINE, Role, STALL, Solver,
+    doubt::{CURVATURE_ROUNDING, FINE_CURVATURE, FINE_PIVOT, IMAGE_ROUNDING},
+    largest, take,
+};
 use crate::{
+    certificate::PROGRESS,
     error::LcpError,
     interrupt::poll,
     ratio::{Blocker, Candidate, TieRule, ratio_test},
@@ -36,7 +41,11 @@ impl Solver {
 
     /// How far below zero a `w` counts as violated.
     pub(super) fn violation(&self) -> f64 {
-        self.settings.feasibility * self.own_scale()
+        let own_scale = self.own_scale();
+        if self.zero.beside_q {
+            return (self.zero.feasibility * self.q_size).max(IMAGE_ROUNDING * own_scale);
+        }
+        self.zero.feasibility * own_scale
     }
 
     /// Drives `z_i` up until `w_i` is zero, keeping every row considered before feasible.
@@ -56,19 +65,37 @@ impl Solver {
                 return Ok(Cycle::LostAccuracy);
             }
             if slope < -self.settings.residual * size * size {
-                return Err(LcpError::NotSemidefinite { index: i, curvature: slope });
+                return Err(LcpError::NotSemidefinite { index: i, eigenvalue: slope / self.direction_squared() });
             }
-            self.collect_candidates(i, slope, size);
+            self.collect_candidates(i, slope, self.least_slope(size), self.settings.pivot * size);
             let rule = if stalled > STALL * (self.active.members().len() + 4) {
                 TieRule::LeastIndex
             } else {
                 TieRule::LargestRate
             };
             let slack = 0.1 * self.violation();
-            let Some((step, blocker)) = ratio_test(&self.candidates, slack, rule) else {
-                if self.w[i] < -self.violation() {
-                    return self.certify_ray(i, size);
+            let mut blocked = ratio_test(&self.candidates, slack, rule);
+            let dependent = slope <= self.least_slope(size);
+            if dependent && self.w[i] > self.violation() {
+                // Only rounding lifts a row along such a direction.
+                return Ok(Cycle::LostAccuracy);
+            }
+            if dependent && self.zero.goes_out && self.go_out(i, size, blocked.map(|(step, _)| step)) {
+                return Ok(Cycle::Feasible);
+            }
+            if blocked.is_none() && self.w[i] < -self.violation() {
+                if self.certify_ray(i, size)? {
+                    return Ok(Cycle::Ray);
                 }
+                let rounding = if self.is_little(i) { CURVATURE_ROUNDING } else { FINE_CURVATURE };
+                if slope <= rounding * size * size {
+                    return Ok(Cycle::LostAccuracy);
+                }
+                // Not a ray: what was taken for rounding blocks it, `w_i` at the latest.
+                self.collect_candidates(i, slope, 0.0, FINE_PIVOT * size);
+                blocked = ratio_test(&self.candidates, 0.0, TieRule::LargestRate);
+            }
+            let Some((step, blocker)) = blocked else {
                 // Minor cycles have made the row feasible, and it depends on the active rows.
                 self.admit(i);
                 return Ok(Cycle::Feasible);
@@ -155,18 +182,22 @@ impl Solver {
         self.dw[i] + self.active.members().iter().map(|&j| self.dz[j] * self.dw[j]).sum::<f64>()
     }
 
+    /// `dz' dz`, at least one.
+    fn direction_squared(&self) -> f64 {
+        1.0 + self.active.members().iter().map(|&j| self.dz[j] * self.dz[j]).sum::<f64>()
+    }
+
     /// Curvature at or below which row i depends on the active rows. Rounding in `M` alone, one unit in the last place of
     /// a unit diagonal, changes `dz' M dz` by the square of the direction's size.
     fn least_slope(&self, size: f64) -> f64 {
-        (self.settings.singular * size).max(CURVATURE_ROUNDING * size * size)
+        (self.zero.singular * size).max(self.zero.curvature * size * size)
     }
 
-    /// Everything that falls towards zero: `w_i` of the driving row, active `z`, and `w` of considered rows. Their order
-    /// does not matter to the ratio test.
-    fn collect_candidates(&mut self, i: usize, slope: f64, size: f64) {
-        let floor = self.settings.pivot * size;
+    /// Everything that falls towards zero: `w_i` of the driving row, active `z`, and `w` of considered rows, faster than at
+    /// `least_slope` and `floor`. Their order does not matter to the ratio test.
+    fn collect_candidates(&mut self, i: usize, slope: f64, least_slope: f64, floor: f64) {
         self.candidates.clear();
-        if slope > self.least_slope(size) {
+        if slope > least_slope {
             self.candidates.push(Candidate { blocker: Blocker::Driving, value: (-self.w[i]).max(0.0), rate: slope });
         }
         for &j in self.active.members() {
@@ -223,23 +254,45 @@ impl Solver {
         self.settled && self.enter(j)
     }
 
-    /// Nothing blocks the direction: y = dz then proves that there is no solution, if `M y = 0`, `y >= 0`, `q' y < 0`.
+    /// Nothing blocks the direction: y = dz then proves that there is no solution, if it is a certificate.
     /// `y' M y = 0` with `(M y)_j = a` not zero is negative curvature: `y - a e_j` has `-a^2` (unit diagonal).
-    fn certify_ray(&mut self, i: usize, size: f64) -> Result<Cycle, LcpError> {
-        let y: Vec<f64> = self.dz.iter().map(|&value| value.max(0.0)).collect();
-        let image = self.m.multiply_add(&y, &vec![0.0; y.len()]);
-        let worst =
-            (0..y.len()).filter(|&j| self.role[j] != Role::Absent).fold(0.0_f64, |worst, j| worst.max(image[j].abs()));
-        let progress: f64 = y.iter().zip(&self.load.scaled).map(|(y, q)| y * q).sum();
+    fn certify_ray(&mut self, i: usize, size: f64) -> Result<bool, LcpError> {
+        let present = |&j: &usize| self.role[j] != Role::Absent;
+        let worst = self.reached.iter().copied().filter(present).fold(0.0_f64, |worst, j| worst.max(self.dw[j].abs()));
         if worst * worst > self.settings.residual * size * size {
-            return Err(LcpError::NotSemidefinite { index: i, curvature: -worst * worst });
+            let eigenvalue = -worst * worst / (self.direction_squared() + worst * worst);
+            return Err(LcpError::NotSemidefinite { index: i, eigenvalue });
         }
-        if worst > self.settings.residual * size || progress >= 0.0 {
-            return Ok(Cycle::LostAccuracy);
+        let direction = self.dz.clone();
+        let certified = self.take_certificate(&direction);
+        if certified {
+            self.residual = self.present_residual();
         }
-        self.ray = Some(y.iter().zip(&self.scaling.d).map(|(y, d)| y * d).collect());
-        self.residual = self.present_residual();
-        Ok(Cycle::Ray)
+        Ok(certified)
+    }
+
+    /// Moves z along a ray that says nothing, until the violation of row i passes for zero beside z. False if that is not
+    /// so little, or if something blocks the way before (at the step `blocked`).
+    fn go_out(&mut self, i: usize, size: f64, blocked: Option<f64>) -> bool {
+        let step = -self.w[i] / (self.zero.feasibility * size);
+        let goes = self.is_little(i) && blocked.is_none_or(|blocked| step < blocked);
+        if goes {
+            self.advance(i, step.max(0.0));
+        }
+        goes && self.w[i] >= -self.violation()
+    }
+
+    /// Whether the violation of row i, as the progress along the direction, says nothing.
+    fn is_little(&self, i: usize) -> bool {
+        let present = |&j: &usize| self.role[j] != Role::Absent;
+        let rows = self.reached.iter().chain(&self.moving).copied().filter(present);
+        let q_size = rows.fold(0.0_f64, |size, j| size.max(self.load.scaled[j].abs()));
+        -self.w[i] <= PROGRESS * q_size * self.direction_sum()
+    }
+
+    /// Sum of the entries of the direction, which are not negative along a ray.
+    fn direction_sum(&self) -> f64 {
+        1.0 + self.active.members().iter().map(|&j| self.dz[j].max(0.0)).sum::<f64>()
     }
 
     /// Puts a row with `w_i = 0` and `z_i >= 0` into the factor. Where it depends on the rows already there, the values are

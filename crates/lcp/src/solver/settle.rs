@@ -201,10 +201,11 @@ impl Solver {
 
     /// The same from the present `w`, which has just been computed from `z`.
     fn residual_of_w(&self) -> f64 {
-        let worst = (0..self.z.len())
-            .filter(|&i| self.role[i] != Role::Absent)
-            .map(|i| self.z[i].min(self.w[i]).abs())
-            .fold(0.0, f64::max);
-        if worst == 0.0 { 0.0 } else { worst / self.own_scale() }
+        let (mut worst, mut size) = (0.0_f64, self.q_size);
+        for i in (0..self.z.len()).filter(|&i| self.role[i] != Role::Absent) {
+            worst = worst.max(self.z[i].min(self.w[i]).abs());
+            size = size.max(self.z[i].abs());
+        }
+        if worst == 0.0 { 0.0 } else { worst / size }
     }
 }

@@ -86,8 +86,8 @@ fn dantzig_refuses_what_is_not_symmetric() {
 #[test]
 fn dantzig_refuses_what_is_not_semidefinite() {
     let index = |m: &[f64], q: Vec<f64>| match dantzig(m, q) {
-        Err(LcpError::NotSemidefinite { index, curvature }) => {
-            assert!(curvature < 0.0, "{curvature}");
+        Err(LcpError::NotSemidefinite { index, eigenvalue }) => {
+            assert!(eigenvalue < 0.0, "{eigenvalue}");
             index
         }
         other => panic!("{other:?}"),
@@ -118,8 +118,8 @@ fn indefinite_matrices_never_give_a_wrong_answer() {
         for method in [&Dantzig as &dyn Method, &Block] {
             let context = format!("{context}, {}", method.name());
             match method.solve(&problem, None, &Settings::default()) {
-                Err(LcpError::NotSemidefinite { curvature, .. }) => {
-                    assert!(curvature < 0.0, "{context}");
+                Err(LcpError::NotSemidefinite { eigenvalue, .. }) => {
+                    assert!(eigenvalue < 0.0, "{context}");
                     refused += 1;
                 }
                 Err(error) => panic!("{context}: {error}"),

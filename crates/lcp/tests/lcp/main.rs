@@ -6,6 +6,7 @@ mod brute_force;
 mod contact;
 mod copies;
 mod cycling;
+mod doubt;
 mod follow;
 mod growing;
 mod lemke_reuse;
