@@ -200,3 +200,25 @@ def test_flat_joints_stay_free_to_slide(dimension: int) -> None:
             )
         assert not any(c.at_borders for c in scene.contacts)
         assert not ds.check(scene).stable
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize(("lean", "slenderness"), [(10, 300), (25, 300), (40, 300), (45, 10)])
+def test_what_stands_does_not_move(dimension: int, lean: float, slenderness: float) -> None:
+    limit = least_friction(lean, slenderness)
+    share = 0.01 if dimension == 2 else 0.09
+    for friction, stands in ((limit * (1 + share), True), (limit * (1 - share), False)):
+        scene = frame(lean, friction, dimension, 0.09, 0.09 / slenderness)
+        run = ds.simulate(scene, steps=120)
+        assert bool(run.motionless.all()) is stands, (lean, friction)
+        # What falls is not held in the air, nor does it fall through the table or the other beam.
+        assert run.penetration.max() < 1e-5
+        if not stands:
+            fallen = run.poses[-1, :2, dimension - 1]
+            assert fallen.max() < 0.045 * math.cos(math.radians(lean))
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_house_of_cards_stays(dimension: int) -> None:
+    run = ds.simulate(house(3, 0.3, dimension), steps=30)
+    assert run.motionless.all()

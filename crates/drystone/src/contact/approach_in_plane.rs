@@ -8,12 +8,13 @@
 //!
 //! Blocks that share a corner or nothing there may yet meet on their way: moved in a straight line, at that face of their
 //! Minkowski difference which is entered last, however far in the step. That is looked for on the ways that come out of a solve
-//! without such a contact (docs/theory/seams.md).
+//! without such a contact (docs/theory/seams.md). Corners that are on one another by then have the normal of slightly rounded
+//! ones, as they have at rest (docs/theory/touching-at-borders.md).
 
 use super::{
     ContactId, Feature,
     approach::{Approach, Approaching, FirstMet, Meeting, Near},
-    narrow_phase::{Outline, greatest_separation, most_opposed},
+    narrow_phase::{Outline, at_corners, greatest_separation, most_opposed},
 };
 use crate::{
     geometry::{Polygon, Vector},
@@ -42,9 +43,8 @@ impl Approaching for Polygon {
         let [a, b] = near.places.map(Vector::from_array);
         let corners = Corners { near, origin: a, offset: b - a };
         let met = corners.first_met(allowed);
-        met.map(|(owner, face)| corners.between(owner, &corners.end(owner, face, corners.closest(owner, face))))
-            .into_iter()
-            .collect()
+        let at_face = |(owner, face)| corners.between(owner, &corners.end(owner, face, corners.closest(owner, face)));
+        met.map(|met| corners.at_corners().unwrap_or_else(|| at_face(met))).into_iter().collect()
     }
 }
 
@@ -77,7 +77,7 @@ impl Corners<'_> {
         let (face_a, separation_a) = greatest_separation(a, b, self.offset);
         let (face_b, separation_b) = greatest_separation(b, a, -self.offset);
         let separation = separation_a.max(separation_b);
-        let mut approaches = Vec::new();
+        let (mut approaches, mut cornered) = (Vec::new(), false);
         if separation > self.near.reach {
             return Meeting { approaches, open: Vec::new(), separation };
         }
@@ -87,9 +87,12 @@ impl Corners<'_> {
         let [low, high] = self.span(reference, face);
         if high - low > self.near.tolerance {
             let ends = self.ends(reference, face);
-            approaches.extend(ends.into_iter().filter_map(|(owner, end)| self.approach(owner, &end)));
+            cornered = separation > -self.near.tolerance && self.cornered(&ends);
+            let bears = |end: &End| !cornered || end.gap > self.near.tolerance;
+            let ends = ends.into_iter().filter(|(_, end)| bears(end));
+            approaches.extend(ends.filter_map(|(owner, end)| self.approach(owner, &end)));
         }
-        let open = approaches.is_empty() && separation > -self.near.tolerance;
+        let open = cornered || approaches.is_empty() && separation > -self.near.tolerance;
         Meeting { approaches, open: if open { vec![[0, 0]] } else { Vec::new() }, separation }
     }
 
@@ -196,6 +199,33 @@ impl Corners<'_> {
             met.see((owner, face), now, then - now)?;
         }
         met.found().map(|(face, _)| face)
+    }
+
+    /// Whether the one end that is on a face is at the end of that face: a corner on a corner, for which no face is the right one.
+    fn cornered(&self, ends: &[(usize, End)]) -> bool {
+        let tolerance = self.near.tolerance;
+        let mut closed = ends.iter().map(|(_, end)| end).filter(|end| end.gap <= tolerance);
+        let inside = |end: &End| end.along > tolerance && end.along < end.length - tolerance;
+        matches!((closed.next(), closed.next()), (Some(end), None) if !inside(end))
+    }
+
+    /// A corner that is on a corner already: each of two distances, along and across a face, may use the whole tolerance.
+    fn at_corners(&self) -> Option<Approach> {
+        let [a, b] = self.near.outlines;
+        let apart = |[i, j]: [usize; 2]| a.vertices[i].distance(b.vertices[j] + self.offset);
+        let pairs = self.faces(0).flat_map(|i| self.faces(1).map(move |j| [i, j]));
+        let nearest = pairs.min_by(|&p, &q| apart(p).total_cmp(&apart(q)))?;
+        let border =
+            at_corners([a, b], nearest, self.offset).filter(|_| apart(nearest) <= 2.0 * self.near.tolerance)?;
+        let met = border.points.first()?;
+        Some(Approach {
+            id: ContactId { bodies: self.near.bodies, feature: met.feature },
+            normal: met.normal.to_array(),
+            point: (self.origin + met.point).to_array(),
+            levers: [met.point, met.point - self.offset].map(|arm| [arm.perp().to_array()]),
+            gap: met.gap,
+            friction: self.near.friction,
+        })
     }
 
     fn faces(&self, owner: usize) -> std::ops::Range<usize> {

@@ -6,15 +6,17 @@
 //!
 //! Where nothing is before that face, the pieces may yet meet on their way. Moved in a straight line, they do so at that face of
 //! their Minkowski difference which is entered last; the points are those that are before it halfway between entry and exit.
-//! That is looked for on the ways that come out of a solve without such a contact (docs/theory/seams.md).
+//! That is looked for on the ways that come out of a solve without such a contact (docs/theory/seams.md). Edges and corners that are on
+//! one another by then have the normal of slightly rounded ones, as they have at rest (docs/theory/touching-at-borders.md).
 
 use super::{
     ContactId, Feature,
     approach::{Approach, ApproachOf, Approaching, FirstMet, Meeting, Near},
+    borders::at_borders,
     id::{SolidFeature, SolidPart},
     separation::{Between, Separation, along_edges, along_faces, planes},
     shared_face::{SharedCorner, facing_corners},
-    solids::{Placed, at_edges},
+    solids::{Placed, TouchPoint, at_edges},
 };
 use crate::{
     geometry::{Polyhedron, Solid, Vector3},
@@ -39,9 +41,9 @@ impl Approaching for Solid {
         for i in 0..near.outlines[0].pieces.len() {
             for j in 0..near.outlines[1].pieces.len() {
                 let pieces = Pieces::of(near, [i, j]);
-                let (distance, points) = pieces.meet();
+                let (distance, points, at_borders) = pieces.meet();
                 meeting.separation = meeting.separation.min(distance);
-                if points.is_empty() && distance > -near.tolerance && distance <= near.reach {
+                if (points.is_empty() || at_borders) && distance > -near.tolerance && distance <= near.reach {
                     meeting.open.push([i, j]);
                 }
                 meeting.approaches.extend(points.iter().map(|point| pieces.approach(point)));
@@ -52,7 +54,7 @@ impl Approaching for Solid {
 
     fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<ApproachOf<Self>> {
         let pieces = Pieces::of(near, pieces);
-        pieces.first_met(allowed).iter().map(|point| pieces.approach(point)).collect()
+        pieces.first_met(allowed)
     }
 }
 
@@ -85,24 +87,44 @@ impl<'a> Pieces<'a> {
         Self { near, pieces, numbers, offset: b - a }
     }
 
-    /// How far they are apart, and where they may meet.
-    fn meet(&self) -> (f64, Vec<Point>) {
+    /// How far they are apart, where they may meet, and whether they are on one another with their borders only.
+    fn meet(&self) -> (f64, Vec<Point>, bool) {
         let ([a, b], bias) = (self.pieces, self.near.tolerance);
         let faces = along_faces(a, b, self.offset, bias);
         if faces.distance > self.near.reach {
-            return (faces.distance, Vec::new());
+            return (faces.distance, Vec::new(), false);
         }
         let edges = along_edges(a, b, self.offset).filter(|edges| edges.distance > faces.distance + bias);
         let plane = edges.unwrap_or(faces);
         if plane.distance > self.near.reach {
-            return (plane.distance, Vec::new());
+            return (plane.distance, Vec::new(), false);
         }
         let mut points = self.points(&plane, Vector3::ZERO, bias);
         points.retain(|point| point.gap <= self.near.reach);
         if plane.distance <= -bias && points.iter().all(|point| point.gap > 0.5 * plane.distance) {
             points.extend(self.deepest(&plane));
         }
-        (plane.distance, points)
+        let at_borders = plane.distance > -bias && self.only_borders(&plane, &points);
+        points.retain(|point| !at_borders || point.gap > bias);
+        (plane.distance, points, at_borders)
+    }
+
+    /// Whether what is on a face is at its border: an edge or a corner on one of its edges, for which no face is the right one.
+    fn only_borders(&self, plane: &Separation, points: &[Point]) -> bool {
+        let (piece, face, place) = match plane.between {
+            Between::FaceOfA(face) => (self.pieces[0], face, Vector3::ZERO),
+            Between::FaceOfB(face) => (self.pieces[1], face, self.offset),
+            Between::Edges(..) => return false,
+        };
+        let closed = || points.iter().filter(|point| point.gap <= self.near.tolerance);
+        let count = closed().count();
+        let middle = closed().fold(Vector3::ZERO, |sum, point| sum + point.at) / count.max(1) as f64 - place;
+        let (corners, normal) = (&piece.faces()[face], piece.normals()[face]);
+        let depth = |k: usize| {
+            let [from, to] = [k, (k + 1) % corners.len()].map(|k| piece.vertices()[corners[k]]);
+            normal.cross((to - from).normalize_or_zero()).dot(middle - from)
+        };
+        count > 0 && (0..corners.len()).any(|k| depth(k) <= self.near.tolerance)
     }
 
     /// Where they meet at a plane once the second has gone by `shift` relative to the first; the points as they are now.
@@ -131,7 +153,7 @@ impl<'a> Pieces<'a> {
             }
             Between::Edges(..) => {
                 let met = at_edges(self.pieces, self.numbers, offset, *plane, tolerance);
-                let point = |met: super::solids::TouchPoint| Point {
+                let point = |met: TouchPoint| Point {
                     features: met.features,
                     at: met.point - shift,
                     normal,
@@ -173,11 +195,23 @@ impl<'a> Pieces<'a> {
     }
 
     /// Where the second piece, moved in a straight line, first meets the first.
-    fn first_met(&self, allowed: f64) -> Vec<Point> {
+    fn first_met(&self, allowed: f64) -> Vec<ApproachOf<Solid>> {
         let [a, b] = self.near.travel.map(|[x, y, z, ..]| Vector3::new(x, y, z));
         let Some((plane, middle)) = self.plane_first_met(allowed) else { return Vec::new() };
+        if let Some(border) = at_borders(self.near.outlines, self.numbers, self.offset, self.near.tolerance) {
+            return border.points.iter().map(|met| self.at_border(met)).collect();
+        }
         let points = self.points(&plane, middle * (b - a), NARROW * self.near.tolerance);
-        if points.is_empty() { self.deepest(&plane).into_iter().collect() } else { points }
+        let points = if points.is_empty() { self.deepest(&plane).into_iter().collect() } else { points };
+        points.iter().map(|point| self.approach(point)).collect()
+    }
+
+    /// Borders that are on one another already.
+    fn at_border(&self, met: &TouchPoint) -> ApproachOf<Solid> {
+        let [a, b] = met.features;
+        let id = ContactId { bodies: self.near.bodies, feature: Feature::Borders { a, b } };
+        let point = Point { features: met.features, at: met.point, normal: met.normal, gap: met.gap };
+        Approach { id, ..self.approach(&point) }
     }
 
     /// The plane at which they do, and when, in steps. None if they do not meet within the step.

@@ -17,7 +17,7 @@ impl ContactId {
     /// The convex pieces of the two that meet: 0 in the plane.
     pub fn pieces(&self) -> [usize; 2] {
         match self.feature {
-            Feature::Solids { a, b } => [a.piece, b.piece],
+            Feature::Solids { a, b } | Feature::Borders { a, b } => [a.piece, b.piece],
             _ => [0, 0],
         }
     }

@@ -156,7 +156,10 @@ impl<S: Moving> World<S> {
 
     /// Where bodies meet that move so, beside what the problem knows. Nobody meets twice in a step, so this ends.
     fn met(&self, problem: &VelocityLevel<S>, motion: &Motion<S>) -> Vec<ApproachOf<S>> {
-        let pair = |approach: &ApproachOf<S>| (approach.id.bodies, approach.id.pieces());
+        let pair = |approach: &ApproachOf<S>| {
+            let id = approach.id;
+            (id.bodies, id.pieces(), id.feature.at_borders())
+        };
         let known = |approach: &ApproachOf<S>| problem.approaches().iter().any(|known| pair(known) == pair(approach));
         let mut met = self.finder.met(&self.scene, &self.ways(&motion.velocities), |i| is_zero(&self.velocities[i]));
         met.retain(|approach| !known(approach));
