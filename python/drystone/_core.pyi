@@ -228,6 +228,8 @@ class Verdict:
     major_cycles: int
     minor_cycles: int
     residual: float
+    virtual_motion: bool
+    doubt: tuple[float, float] | None
     seconds: float
 
 @final
@@ -287,8 +289,8 @@ class Structure:
     def names(self) -> list[str]: ...
     def blocks(self) -> list[int]: ...
     def change(self, removed: list[int], added: list[int]) -> None: ...
-    def step(self, removed: list[int], added: list[int]) -> tuple[bool, float, int]:
-        """Whether the rest stands, seconds of all this, pivots."""
+    def step(self, removed: list[int], added: list[int]) -> tuple[bool | None, float, int]:
+        """Whether the rest stands (None: borderline), seconds of all this, pivots."""
 
     def check(self) -> Verdict: ...
     def pivots(self) -> int: ...

@@ -75,8 +75,9 @@ class Structure:
         """Take blocks away; those that are not there stay away."""
         self._core.change(self._indices(blocks), [])
 
-    def stands(self) -> bool:
-        """Whether an equilibrium within the friction cones exists.
+    def stands(self) -> bool | None:
+        """Whether an equilibrium within the friction cones exists; None if that is borderline (see
+        `Verdict.status`).
 
         Raises DrystoneError if the solver ends without an answer.
         """

@@ -63,7 +63,13 @@ class Verdict:
     """An equilibrium within the friction cones exists. Without friction this is sufficient for
     standing; with friction it is necessary."""
     status: str
-    """"solved", or why the solver stopped without an answer (then `stable` is False)."""
+    """"solved"; "borderline" if neither is proved, that it stands or that it falls (see `doubt`);
+    or why the solver stopped without an answer. `stable` is False unless it is solved.
+
+    It stands if forces within the cones leave each block an imbalance of at most 1e-9 of the
+    largest force on it and 1e-6 of its own load. It falls if there is a motion that closes no
+    contact in which the loads do work by more than ten times what rounding could make of the
+    forces. Residuals are refined to 32 digits before both, or neither, are said to hold."""
     forces: tuple[ContactForce, ...]
     """One entry a contact point of the bodies checked."""
     names: tuple[str, ...]
@@ -84,6 +90,13 @@ class Verdict:
     minor_cycles: int
     residual: float
     """How far the computed solution is from satisfying its problem, in the problem's scale."""
+    virtual_motion: bool
+    """What falls is known, but not how it begins to: `accelerations` are those along a motion that
+    proves the fall, and `falling` are the blocks that move in it. So where masses differ by 1e7 and
+    more, and the complementarity problem cannot be solved to an accuracy that tells."""
+    doubt: tuple[float, float] | None
+    """Of a borderline verdict: the least imbalance that any forces leave, in the load of a block,
+    and the power of the collapse, as a multiple of what rounding could make of the forces."""
     seconds: float
     """Wall time of the solve."""
     scene: Scene = field(repr=False)
@@ -106,6 +119,8 @@ class Verdict:
             core.major_cycles,
             core.minor_cycles,
             core.residual,
+            core.virtual_motion,
+            core.doubt,
             core.seconds,
             scene,
             _certain(core, scene, cone),
@@ -146,6 +161,12 @@ class Verdict:
 
     def __str__(self) -> str:
         work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
+        if self.doubt is not None:
+            imbalance, power = self.doubt
+            return (
+                f"Borderline, neither standing nor falling is proved: forces leave {imbalance:.1e}"
+                f" of a block's load, a fall has {power:.1e} times the power of rounding; {work}."
+            )
         if self.status != "solved":
             return f"No answer ({self.status}): {work}."
         if not self.certain:
@@ -165,6 +186,8 @@ class Verdict:
             "stable": self.stable,
             "status": self.status,
             "certain": self.certain,
+            "virtual_motion": self.virtual_motion,
+            "doubt": None if self.doubt is None else list(self.doubt),
             "falling": list(self.falling),
             **self._explanation().to_dict(),
             "accelerations": {
@@ -238,7 +261,7 @@ def check(
     core_cones(facets, cone, CONES)
     inner = CONES[0] if cone == "both" else cone
     verdict = Verdict._of(_core.check(scene._core, names, method, (facets, inner)), scene, inner)
-    if cone == "both" and not verdict.certain:
+    if cone == "both" and verdict.status == "solved" and not verdict.certain:
         outer = _core.check(scene._core, names, method, (facets, CONES[1]))
         if outer.status == "solved" and not outer.stable:
             return replace(verdict, certain=True)
@@ -246,7 +269,9 @@ def check(
 
 
 def _certain(core: _core.Verdict, scene: Scene, cone: str) -> bool:
-    if scene.dimension == 2 or core.status != "solved":
+    if core.status != "solved":
+        return False
+    if scene.dimension == 2:
         return True
     frictionless = scene._core.largest_friction() == 0.0
     return frictionless or core.stable == (cone == CONES[0])

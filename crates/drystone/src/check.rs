@@ -2,26 +2,24 @@
 
 use crate::{
     contact::Contact,
+    equilibrium::{accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
     error::SceneError,
     formulate::{Acceleration, Assemble, Assembly, BlockSet, Components, ContactForce},
-    geometry::length,
+    judgement::{Judgement, Motion, judge, moving_blocks, proves_fall},
     scene::SceneOf,
-    structure::put_up,
 };
 use drystone_lcp::{
     Counts, Settings, Solver, Status,
-    cone::{ConeSolver, Membership},
+    cone::{ConeSolver, Doubt, Membership},
 };
 
-/// A block is at rest while its acceleration stays below this share of gravity; turning counts by the speed of the
-/// block's corner furthest from its centre of mass. Rounding in a stack of some hundred blocks leaves 1e-12; a block that
-/// overhangs an edge by a hundred-millionth of its width has about 1e-8.
-pub const AT_REST: f64 = 1e-9;
+pub use crate::{equilibrium::GoOn, judgement::AT_REST};
 
 /// The answer for an assembly or a sub-assembly.
 #[derive(Debug, Clone)]
 pub struct Verdict {
-    /// How the solver ended; anything but solved means that `stable` is not decided (and false).
+    /// How the solver ended; anything but solved means that `stable` is not decided (and false). Borderline: neither
+    /// standing nor falling is proved, see `doubt`.
     pub status: Status,
     /// An equilibrium exists within the friction cones (without friction this is also sufficient to stand).
     pub stable: bool,
@@ -37,6 +35,11 @@ pub struct Verdict {
     pub counts: Counts,
     /// Residual of the complementarity problem, in its own scale.
     pub residual: f64,
+    /// The accelerations are those along a virtual motion in which it falls, not those with which it begins to: the
+    /// complementarity problem could not be solved to an accuracy that tells.
+    pub virtual_motion: bool,
+    /// Of a borderline verdict: how near it is to standing, and to falling.
+    pub doubt: Option<Doubt>,
 }
 
 /// Checks a scene, or the sub-assembly of the named bodies; fixed bodies are always there.
@@ -77,7 +80,7 @@ pub fn check_while(
     };
     Ok(match route {
         Route::Equilibrium => check_blocks_while(assembly, &set, go_on),
-        Route::Complementarity => complementarity_while(assembly, &set, Counts::default(), go_on),
+        Route::Complementarity => complementarity_while(assembly, &set, None, Counts::default(), go_on),
     })
 }
 
@@ -90,25 +93,6 @@ pub fn stands<S: Assemble>(scene: &SceneOf<S>) -> Result<bool, SceneError> {
     Ok(equilibrium_of(&assembly, &BlockSet::full(assembly.blocks())).0 == Membership::Inside)
 }
 
-/// Asked many times, with the blocks put up so far, whether to go on.
-pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
-
-/// Looks for contact forces that hold a sub-assembly, putting it up block by block from the supports. None if stopped.
-fn equilibrium_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<(Membership, ConeSolver)> {
-    let mut equilibrium = assembly.equilibrium();
-    let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
-    let mut placed = 0;
-    let before = |_: &mut ConeSolver, _| {
-        placed += 1;
-        go_on(placed - 1)
-    };
-    put_up(&mut equilibrium, &assembly.equilibrium_rows(), upward, before).then(|| (equilibrium.solve(), equilibrium))
-}
-
-fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
-    equilibrium_while(assembly, blocks, &mut |_| true).expect("nobody stops it")
-}
-
 /// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
 pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
     check_blocks_while(assembly, blocks, &mut |_| true).expect("nobody stops it")
@@ -117,23 +101,34 @@ pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
 /// [`check_blocks`], unless it is stopped; None then.
 pub fn check_blocks_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<Verdict> {
     let (found, equilibrium) = equilibrium_while(assembly, blocks, go_on)?;
-    if found == Membership::Inside {
-        let (counts, residual) = (equilibrium.counts(), equilibrium.residual());
-        let magnitude = |j| assembly.magnitude(&equilibrium, j);
-        return Some(verdict(assembly, blocks, magnitude, Status::Solved, counts, residual));
+    by_equilibrium(assembly, blocks, found, &equilibrium, equilibrium.counts(), go_on)
+}
+
+/// The verdict that an equilibrium solver has come to, with all its forces up to date; the accelerations of what falls are
+/// those of the complementarity problem. `spent` is the work done for it. None if stopped.
+pub(crate) fn by_equilibrium(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    found: Membership,
+    equilibrium: &ConeSolver,
+    spent: Counts,
+    go_on: &mut GoOn<'_>,
+) -> Option<Verdict> {
+    match found {
+        Membership::Inside | Membership::Borderline => Some(held(assembly, blocks, equilibrium, spent)),
+        _ => {
+            let fell = (found == Membership::Outside).then_some(equilibrium);
+            complementarity_while(assembly, blocks, fell, spent, go_on)
+        }
     }
-    complementarity_while(assembly, blocks, equilibrium.counts(), go_on)
 }
 
-/// Solves the complementarity problem from scratch; `spent` is work done before.
-pub(crate) fn solve_complementarity(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
-    complementarity_while(assembly, blocks, spent, &mut |_| true).expect("nobody stops it")
-}
-
-/// [`solve_complementarity`], unless it is stopped; None then.
+/// Solves the complementarity problem from scratch; `fell` is an equilibrium solver that has found that the sub-assembly falls,
+/// `spent` is work done before.
 fn complementarity_while(
     assembly: &Assembly,
     blocks: &BlockSet,
+    fell: Option<&ConeSolver>,
     spent: Counts,
     go_on: &mut GoOn<'_>,
 ) -> Option<Verdict> {
@@ -145,16 +140,69 @@ fn complementarity_while(
         Ok(solved) => solved?,
         Err(_) => Status::NumericalTrouble,
     };
-    let mut found = verdict(assembly, blocks, |j| solver.z(j), status, spent + solver.counts(), solver.residual());
-    found.stable = status == Status::Solved && stands_under(assembly, blocks, |j| solver.z(j));
-    Some(found)
+    let counts = spent + solver.counts();
+    let force = |j: usize| solver.z(j);
+    let motion = assembly.motion(blocks, force);
+    let found = verdict(assembly, blocks, force, &motion, status, counts, solver.residual());
+    let fallen = |found: Verdict, equilibrium: &ConeSolver| {
+        let proved =
+            status == Status::Solved && !found.falling.is_empty() && proves_fall(assembly, blocks, &motion, force);
+        if proved { Verdict { stable: false, ..found } } else { by_collapse(assembly, found, equilibrium) }
+    };
+    let judgement = match (fell, status) {
+        (Some(equilibrium), _) => return Some(fallen(found, equilibrium)),
+        (None, Status::Solved) => judge(assembly, blocks, &motion, force),
+        (None, _) => Judgement::by_equilibrium(assembly, blocks),
+    };
+    Some(match judgement {
+        Judgement::Stands => found,
+        Judgement::Falls => Verdict { stable: false, ..found },
+        Judgement::ByEquilibrium(Membership::Outside, equilibrium) => fallen(found, &equilibrium),
+        Judgement::ByEquilibrium(Membership::Inside | Membership::Borderline, equilibrium) => {
+            held(assembly, blocks, &equilibrium, counts)
+        }
+        Judgement::ByEquilibrium(..) => {
+            let status = if status == Status::Solved { Status::NumericalTrouble } else { status };
+            Verdict { status, stable: false, falling: Vec::new(), ..found }
+        }
+    })
 }
 
-/// Reads a verdict from the magnitudes of the generators.
-pub(crate) fn verdict(
+/// The verdict on what is held up by the forces of an equilibrium solver, for certain or borderline.
+fn held(assembly: &Assembly, blocks: &BlockSet, equilibrium: &ConeSolver, counts: Counts) -> Verdict {
+    let magnitudes: Vec<f64> = (0..assembly.generators().len()).map(|j| assembly.magnitude(equilibrium, j)).collect();
+    let force = |generator: usize| magnitudes[generator];
+    let motion: Motion = blocks.iter().map(|block| (block, assembly.acceleration(block, force))).collect();
+    let held = verdict(assembly, blocks, force, &motion, Status::Solved, counts, equilibrium.residual());
+    let doubt = equilibrium.doubt();
+    let status = if doubt.is_some() { Status::Borderline } else { Status::Solved };
+    Verdict { status, stable: doubt.is_none(), falling: Vec::new(), doubt, ..held }
+}
+
+/// The verdict on what an equilibrium solver has found to fall, where the complementarity problem does not tell how: by the
+/// solver's own motion.
+fn by_collapse(assembly: &Assembly, found: Verdict, equilibrium: &ConeSolver) -> Verdict {
+    let accelerations = accelerations_along(assembly, &collapse_motion(assembly, equilibrium));
+    let of = |&body: &usize| {
+        let moving = accelerations.iter().find(|(block, _)| assembly.body_index(*block) == body);
+        moving.map_or(Acceleration::default(), |&(block, value)| assembly.in_world(block, value))
+    };
+    Verdict {
+        status: Status::Solved,
+        stable: false,
+        accelerations: found.checked.iter().map(of).collect(),
+        falling: accelerations.iter().map(|&(block, _)| assembly.body_index(block)).collect(),
+        virtual_motion: true,
+        ..found
+    }
+}
+
+/// Reads a verdict from the magnitudes of the generators and the accelerations under them.
+fn verdict(
     assembly: &Assembly,
     blocks: &BlockSet,
     f: impl Fn(usize) -> f64,
+    motion: &[(usize, Components)],
     status: Status,
     counts: Counts,
     residual: f64,
@@ -162,15 +210,13 @@ pub(crate) fn verdict(
     // Each is asked for by both blocks and by the contact.
     let magnitudes: Vec<f64> = (0..assembly.generators().len()).map(f).collect();
     let f = |generator: usize| magnitudes[generator];
-    let accelerations: Vec<(usize, Components)> =
-        blocks.iter().map(|block| (block, assembly.acceleration(block, f))).collect();
-    let falls = accelerations.iter().filter(|(block, acceleration)| !at_rest(assembly, *block, acceleration));
-    let falling: Vec<usize> = falls.map(|&(block, _)| assembly.body_index(block)).collect();
+    let moving = moving_blocks(assembly, motion, f);
+    let falling: Vec<usize> = moving.iter().map(|&(block, _)| assembly.body_index(block)).collect();
     Verdict {
         status,
         stable: status == Status::Solved && falling.is_empty(),
         checked: blocks.iter().map(|block| assembly.body_index(block)).collect(),
-        accelerations: accelerations.into_iter().map(|(block, value)| assembly.in_world(block, value)).collect(),
+        accelerations: motion.iter().map(|&(block, value)| assembly.in_world(block, value)).collect(),
         falling,
         forces: assembly
             .contact_forces(&assembly.rows(blocks), f)
@@ -179,38 +225,7 @@ pub(crate) fn verdict(
             .collect(),
         counts,
         residual,
+        virtual_motion: false,
+        doubt: None,
     }
-}
-
-/// Accelerations below this share of gravity do not decide alone: the complementarity solver lets contacts open by
-/// 1e-11 of its scale, and what is left of a motion whose power is that small has the square root of it.
-const DOUBTFUL: f64 = 1e-4;
-
-/// Whether a sub-assembly stands, by the forces of a complementarity solver; in doubt by an equilibrium.
-pub(crate) fn stands_under(assembly: &Assembly, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> bool {
-    let fastest = moving_blocks(assembly, blocks, f)
-        .map(|(block, acceleration)| severity(assembly, block, &acceleration))
-        .fold(0.0, f64::max);
-    fastest == 0.0 || fastest < DOUBTFUL && equilibrium_of(assembly, blocks).0 == Membership::Inside
-}
-
-/// The blocks of a sub-assembly that are not at rest under the solver's forces, with their accelerations.
-pub(crate) fn moving_blocks<'a>(
-    assembly: &'a Assembly,
-    blocks: &'a BlockSet,
-    f: impl Fn(usize) -> f64 + 'a,
-) -> impl Iterator<Item = (usize, Components)> + 'a {
-    let accelerated = blocks.iter().map(move |block| (block, assembly.acceleration(block, &f)));
-    accelerated.filter(move |(block, acceleration)| !at_rest(assembly, *block, acceleration))
-}
-
-fn at_rest(assembly: &Assembly, block: usize, acceleration: &Components) -> bool {
-    severity(assembly, block, acceleration) <= AT_REST
-}
-
-/// Largest acceleration of a point of a block, as a share of gravity (of 1 m/s^2 without gravity).
-fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
-    let [x, y, z, turning @ ..] = *acceleration;
-    let gravity = Some(length(assembly.gravity())).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-    length([x, y, z]).max(length(turning) * assembly.body(block).radius) / gravity
 }

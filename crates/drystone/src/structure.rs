@@ -14,13 +14,12 @@ use crate::{
     scene::SceneOf,
 };
 use drystone_lcp::{
-    Counts, Status,
+    Counts,
     cone::{ConeSolver, Membership},
 };
 use fall::Fall;
 use history::History;
 use putting_up::PuttingUp;
-pub(crate) use putting_up::put_up;
 
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
 ///
@@ -139,7 +138,8 @@ impl Structure {
         PuttingUp { assembly, rows, solver, history }.put_up(new, &self.blocks);
     }
 
-    /// Whether an equilibrium within the friction cones exists; None if the solver found no answer.
+    /// Whether an equilibrium within the friction cones exists; None if the solver found no answer, or that it is
+    /// [borderline](Self::is_borderline).
     pub fn stands(&mut self) -> Option<bool> {
         or_else(self, Self::decide, Self::begin_anew)
     }
@@ -157,6 +157,11 @@ impl Structure {
             Membership::Outside => Some(false),
             _ => None,
         }
+    }
+
+    /// Whether the last answer was neither: standing and falling are both within what is allowed, or neither is proved.
+    pub fn is_borderline(&self) -> bool {
+        self.solver.doubt().is_some()
     }
 
     /// The verdict with all forces, or with the accelerations if it falls.
@@ -177,11 +182,8 @@ impl Structure {
         let found = self.solver.solve();
         self.fell = found == Membership::Outside;
         let spent = self.solver.counts() - before;
-        if found != Membership::Inside {
-            return check::solve_complementarity(&self.assembly, &self.blocks, spent);
-        }
-        let force = |generator| self.assembly.magnitude(&self.solver, generator);
-        check::verdict(&self.assembly, &self.blocks, force, Status::Solved, spent, self.solver.residual())
+        check::by_equilibrium(&self.assembly, &self.blocks, found, &self.solver, spent, &mut |_| true)
+            .expect("nobody stops it")
     }
 
     /// Work done so far.

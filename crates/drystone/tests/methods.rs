@@ -118,7 +118,7 @@ struct Careless {
 impl StabilityTest for Careless {
     fn test(&mut self, blocks: &BlockSet, _added: usize) -> Result<TestOutcome, PlanError> {
         if self.answers {
-            return Ok(TestOutcome { stands: true, pivots: 1 });
+            return Ok(TestOutcome { stands: true, borderline: false, pivots: 1 });
         }
         Err(PlanError::NoAnswer { blocks: blocks.len(), reason: "it does not try".into() })
     }

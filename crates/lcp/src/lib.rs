@@ -33,6 +33,7 @@ mod matrix;
 mod pivot;
 mod problem;
 mod ratio;
+pub mod refined;
 mod reuse;
 mod scaling;
 pub mod sealed;

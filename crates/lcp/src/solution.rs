@@ -17,6 +17,8 @@ pub enum Status {
     PivotLimit,
     /// Accuracy was lost, and neither refactoring nor further attempts brought it back; the residual says by how much.
     NumericalTrouble,
+    /// Of a verdict on forces: neither standing nor falling is proved, see [`Membership`](crate::cone::Membership).
+    Borderline,
 }
 
 impl Status {
@@ -28,6 +30,7 @@ impl Status {
             Self::RayTermination => "ray_termination",
             Self::PivotLimit => "pivot_limit",
             Self::NumericalTrouble => "numerical_trouble",
+            Self::Borderline => "borderline",
         }
     }
 }

@@ -106,7 +106,7 @@ impl StabilityTest for Callback {
         in_python(|py| {
             let answer = self.function.call1(py, (blocks.iter().collect::<Vec<_>>(), added));
             match answer.and_then(|answer| answer.extract::<(bool, usize)>(py)) {
-                Ok((stands, pivots)) => Ok(TestOutcome { stands, pivots }),
+                Ok((stands, pivots)) => Ok(TestOutcome { stands, borderline: false, pivots }),
                 Err(error) if error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(PlanError::Interrupted),
                 Err(error) => Err(PlanError::External(Box::new(error))),
             }
@@ -209,7 +209,7 @@ fn to_python(py: Python<'_>, assembly: Option<&Assembly>, plan: &core::Plan, con
     let names = |bodies: &[usize]| -> Vec<String> { bodies.iter().map(|&index| name(index)).collect() };
     let way = |(direction, bodies): &([f64; 3], Vec<usize>)| (clean(direction), names(bodies));
     let record = |record: &core::TestRecord| {
-        let (TestOutcome { stands, pivots }, seconds) = (record.outcome, record.time.as_secs_f64());
+        let (TestOutcome { stands, pivots, .. }, seconds) = (record.outcome, record.time.as_secs_f64());
         Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
     };
     let verdict = |(assembly, whole)| Py::new(py, Verdict::new(py, assembly, whole, plan.whole_time)?);

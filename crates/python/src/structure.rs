@@ -52,17 +52,19 @@ impl Structure {
         Ok(())
     }
 
-    /// Takes blocks off, puts blocks on, and says whether the rest stands: (stands, seconds, pivots). The time is of
-    /// everything that this asks for. If a signal stops it, the blocks are those from before.
-    fn step(&self, py: Python<'_>, removed: Vec<usize>, added: Vec<usize>) -> PyResult<(bool, f64, usize)> {
+    /// Takes blocks off, puts blocks on, and says whether the rest stands: (stands, seconds, pivots). `stands` is
+    /// None if that is borderline. The time is of everything that this asks for. If a signal stops it, the blocks are those
+    /// from before.
+    fn step(&self, py: Python<'_>, removed: Vec<usize>, added: Vec<usize>) -> PyResult<(Option<bool>, f64, usize)> {
         let mut guard = self.core.write()?;
         let core = &mut *guard;
         let start = Instant::now();
         let (before, blocks) = (core.counts().pivots, core.blocks().clone());
         change(core, removed, added);
-        let stands = interruptible(py, || core.stands())
-            .inspect_err(|_| core.set(&blocks))?
-            .ok_or_else(|| no_answer(core.blocks().len()))?;
+        let stands = interruptible(py, || core.stands()).inspect_err(|_| core.set(&blocks))?;
+        if stands.is_none() && !core.is_borderline() {
+            return Err(no_answer(core.blocks().len()));
+        }
         Ok((stands, start.elapsed().as_secs_f64(), core.counts().pivots - before))
     }
 

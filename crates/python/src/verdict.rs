@@ -37,6 +37,10 @@ pub struct Verdict {
     major_cycles: usize,
     minor_cycles: usize,
     residual: f64,
+    virtual_motion: bool,
+    /// Of a borderline verdict: the least imbalance in a block's own load, and the power of the fall as a multiple of
+    /// what rounding could make of the forces.
+    doubt: Option<(f64, f64)>,
     seconds: f64,
 }
 
@@ -94,6 +98,8 @@ impl Verdict {
             major_cycles: verdict.counts.major_cycles,
             minor_cycles: verdict.counts.minor_cycles,
             residual: verdict.residual,
+            virtual_motion: verdict.virtual_motion,
+            doubt: verdict.doubt.map(|doubt| (doubt.imbalance, doubt.power)),
             seconds: time.as_secs_f64(),
         })
     }

@@ -45,7 +45,8 @@ def run(
 
 def _print(verdict: Verdict, picture: Path | None) -> None:
     out = console()
-    colour = "green" if verdict.stable else "red"
+    undecided = verdict.status != "solved"
+    colour = "yellow" if undecided else "green" if verdict.stable else "red"
     out.print(str(verdict), style=f"bold {colour}")
     if verdict.falling:
         out.print(_fall_table(verdict))

@@ -14,7 +14,7 @@ pub struct ContactForce {
 }
 
 /// Acceleration of a block in world axes; in the plane x, y and the turn about z are in use.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Acceleration {
     /// Of the centre of mass, m/s^2.
     pub linear: [f64; 3],

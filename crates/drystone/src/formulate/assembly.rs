@@ -34,6 +34,8 @@ pub struct Assembly {
     components: &'static [usize],
     contacts: ContactSet,
     movable: Vec<usize>,
+    /// Mass of the heaviest block, kg.
+    heaviest: f64,
     generators: Vec<Generator>,
     /// Axes of the cones of the contacts that have friction, and which of them is a contact's.
     pub(super) axes: Vec<Generator>,
@@ -81,6 +83,7 @@ impl Assembly {
             generators_on: vec![Vec::new(); movable.len()],
             inverse_mass: movable.iter().flat_map(|&body| picked(bodies[body].inverse_mass())).collect(),
             applied: movable.iter().flat_map(load).collect(),
+            heaviest: movable.iter().map(|&body| bodies[body].mass).fold(0.0, f64::max),
             bodies,
             movable,
         };
@@ -225,7 +228,8 @@ impl Assembly {
         let columns = self.columns(self.generators.iter().chain(&self.axes));
         let axes = self.generators.len()..columns.len();
         let mut solver = ConeSolver::new(columns, &self.balance(), &self.balance_units())
-            .expect("a validated scene has finite masses, positions and directions");
+            .expect("a validated scene has finite masses, positions and directions")
+            .with_own_loads(self.own_loads());
         solver.prefer(axes);
         solver
     }
@@ -242,9 +246,24 @@ impl Assembly {
         })
     }
 
-    /// The unit of every row of [`Self::equilibrium`].
+    /// The unit of every row of [`Self::equilibrium`]: the block's own load, but for blocks so light beside the heaviest that
+    /// pivots on a heavy block's rows would be lost in rounding.
     pub(super) fn balance_units(&self) -> Vec<f64> {
-        (0..self.blocks()).flat_map(|block| self.balance_unit(block)).collect()
+        let of = |block| self.balance_unit(block).map(move |own| own / self.own_load(block));
+        (0..self.blocks()).flat_map(of).collect()
+    }
+
+    /// The load of every row's own block, in the unit of the row.
+    pub(super) fn own_loads(&self) -> Vec<f64> {
+        let of = |block| std::iter::repeat_n(self.own_load(block), self.components.len());
+        (0..self.blocks()).flat_map(of).collect()
+    }
+
+    /// A block's load in the unit of its rows: one, or less where a block weighs 1e8 times as much.
+    fn own_load(&self, block: usize) -> f64 {
+        const LIGHTEST: f64 = 1e-8;
+        let mass = |block: usize| self.inverse_mass(block)[0].recip();
+        (mass(block) / (LIGHTEST * self.heaviest)).min(1.0)
     }
 
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.

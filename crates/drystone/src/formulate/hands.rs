@@ -31,8 +31,11 @@ impl Assembly {
         let (mut balance, mut units) = (self.balance(), self.balance_units());
         balance.resize(rows, 0.0);
         units.resize(rows, 1.0);
+        let mut own = self.own_loads();
+        own.resize(rows, 1.0);
         let mut solver = ConeSolver::new(columns, &balance, &units)
-            .expect("a validated scene has finite masses, positions and directions");
+            .expect("a validated scene has finite masses, positions and directions")
+            .with_own_loads(own);
         solver.prefer(axes);
         solver
     }

@@ -20,6 +20,7 @@ impl Assembly {
     pub fn equilibrium_with_loads(&self) -> ConeSolver {
         let (mut indptr, mut indices, mut data) = self.compressed(self.generators().iter());
         let (mut balance, mut units) = (vec![0.0; self.load_row(0)], self.balance_units());
+        let mut own = self.own_loads();
         for block in 0..self.blocks() {
             let (applied, size) = (self.applied(block), self.load_size(block));
             for (row, load) in self.equilibrium_rows().of(block).iter().zip(applied).filter(|(_, load)| **load != 0.0) {
@@ -30,12 +31,15 @@ impl Assembly {
             data.push(1.0);
             indptr.push(indices.len());
             balance.push(size);
-            units.extend(self.balance_unit(block).next());
+            let load = units[self.equilibrium_rows().of(block)[0]];
+            units.push(load);
+            own.push(own[self.equilibrium_rows().of(block)[0]]);
         }
         let columns = Columns::new(balance.len(), &indptr, &indices, &data)
             .expect("a validated scene has finite masses, positions and directions");
         ConeSolver::new(columns, &balance, &units)
             .expect("a validated scene has finite masses, positions and directions")
+            .with_own_loads(own)
     }
 
     /// The row of [`Self::equilibrium_with_loads`] that is present while a block weighs something.

@@ -18,6 +18,7 @@ mod cones;
 mod generator;
 mod hands;
 mod loads;
+mod motion;
 mod part;
 
 pub use answers::{Acceleration, ContactForce};

@@ -12,7 +12,8 @@ use drystone_lcp::cone::Membership;
 pub struct StructureForces {
     /// Movable blocks put up so far.
     pub blocks: usize,
-    /// Contact forces that balance the loads, without those that are zero; `None` if there are none: it falls.
+    /// Contact forces that balance the loads, without those that are zero; `None` if there are none: it falls, or that is
+    /// borderline.
     pub forces: Option<Vec<ContactForce>>,
 }
 
@@ -42,7 +43,7 @@ pub fn forces_along(
                 let every = assembly.contact_forces(&assembly.rows(&present), |j| assembly.magnitude(&equilibrium, j));
                 Some(every.into_iter().filter(|force| force.force != [0.0; 3]).collect())
             }
-            Membership::Outside => None,
+            Membership::Outside | Membership::Borderline => None,
             trouble => {
                 let reason = format!("{trouble:?} (residual {:.1e})", equilibrium.residual());
                 return Err(PlanError::NoAnswer { blocks, reason });

@@ -13,7 +13,7 @@ use super::collapse::Collapse;
 use super::hitting::next_hitting_set;
 use super::stability::{PlanError, StabilityTest, TestOutcome, certified_collapse};
 use crate::formulate::{Assembly, BlockRows, BlockSet};
-use drystone_lcp::cone::{ConeSolver, Mark, Membership};
+use drystone_lcp::cone::{ConeSolver, Mark};
 
 /// Most holds tried on one sub-assembly. One hand never comes near; with more the number of sets could explode.
 const MOST_TRIED: usize = 2000;
@@ -78,18 +78,13 @@ impl<'a> Holding<'a> {
         self.path.iter().skip(1).map(|level| (level.added, level.holds.as_slice()))
     }
 
-    /// Whether what is there stands with these blocks held.
-    fn stands(&mut self, held: &[usize], blocks: &BlockSet) -> Result<bool, PlanError> {
+    /// Whether what is there stands with these blocks held; None if that is borderline.
+    fn stands(&mut self, held: &[usize], blocks: &BlockSet) -> Result<Option<bool>, PlanError> {
         let rows: Vec<usize> = held.iter().map(|&block| self.assembly.hand_row(block)).collect();
         self.solver.add_rows(&rows);
-        match self.solver.decide() {
-            Membership::Inside => Ok(true),
-            Membership::Outside => Ok(false),
-            trouble => {
-                let reason = format!("{trouble:?} (residual {:.1e})", self.solver.residual());
-                Err(PlanError::NoAnswer { blocks: blocks.len(), reason })
-            }
-        }
+        let found = self.solver.decide();
+        let outcome = TestOutcome::of_equilibrium(found, &self.solver, 0, blocks.len())?;
+        Ok((!outcome.borderline).then_some(outcome.stands))
     }
 
     /// Finds the minimal holds of a sub-assembly that falls with nothing held.
@@ -100,16 +95,20 @@ impl<'a> Holding<'a> {
         let mut family = vec![self.moving(&[])];
         let mut tried = 0;
         while let Some(held) = next_hitting_set(&family, self.hands, &preference, &self.holds) {
-            if tried == MOST_TRIED {
-                self.collapses.clear(); // they prove nothing
-                break;
-            }
+            let stands = if tried == MOST_TRIED { None } else { self.stands(&held, blocks)? };
             tried += 1;
-            if self.stands(&held, blocks)? {
-                self.holds.push(held);
-            } else {
-                self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
-                family.push(self.moving(&held));
+            match stands {
+                Some(true) => self.holds.push(held),
+                Some(false) => {
+                    self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
+                    family.push(self.moving(&held));
+                }
+                // They prove nothing: there are too many holds to try, or one is borderline.
+                None => {
+                    self.collapses.clear();
+                    self.solver.roll_back(unheld);
+                    break;
+                }
             }
             self.solver.roll_back(unheld);
         }
@@ -154,9 +153,10 @@ impl StabilityTest for Holding<'_> {
         self.collapses.clear();
         let before = self.solver.counts().pivots;
         self.solver.add_rows(self.rows.of(added));
-        if self.stands(&[], blocks)? {
+        let unheld = self.stands(&[], blocks)?;
+        if unheld == Some(true) {
             self.holds.push(Vec::new());
-        } else {
+        } else if unheld == Some(false) {
             self.find_holds(blocks)?;
             let mut holds = std::mem::take(&mut self.holds);
             if !holds.is_empty() {
@@ -167,7 +167,8 @@ impl StabilityTest for Holding<'_> {
         }
         let stands = !self.holds.is_empty();
         self.undecided += usize::from(!stands && self.collapses.is_empty());
-        Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
+        let borderline = unheld.is_none();
+        Ok(TestOutcome { stands, borderline, pivots: self.solver.counts().pivots - before })
     }
 
     fn explains(&self) -> bool {

@@ -3,8 +3,8 @@
 
 use super::stability::{PlanError, StabilityTest, TestOutcome, solve_by, solver_for};
 use crate::{
-    check::stands_under,
     formulate::{Assembly, BlockSet},
+    judgement::judge,
 };
 use drystone_lcp::{Lemke, Method, Problem, Settings, Snapshot, Solver, Start, Status};
 
@@ -44,7 +44,7 @@ impl StabilityTest for ByBlocks<'_> {
         };
         self.at_current = false;
         self.solver.add_rows(&rows).expect("rows of this assembly's problem");
-        solve_by(Solver::solve_by_blocks, self.assembly, &mut self.solver, blocks)
+        Ok(solve_by(Solver::solve_by_blocks, self.assembly, &mut self.solver, blocks)?.outcome)
     }
 
     fn descend(&mut self) {
@@ -102,9 +102,12 @@ impl StabilityTest for ByLemke<'_> {
             return Err(no_answer(format!("{} (residual {:.1e})", solution.status.name(), solution.residual)));
         }
         let force = |j: usize| rows.binary_search(&j).map_or(0.0, |place| solution.z[place]);
-        let stands = stands_under(self.assembly, blocks, force);
+        let motion = self.assembly.motion(blocks, force);
+        let found = judge(self.assembly, blocks, &motion, force).found();
+        let outcome = TestOutcome::of(found, solution.counts.pivots)
+            .ok_or_else(|| no_answer(format!("{found:?} (residual {:.1e})", solution.residual)))?;
         self.found = Some(Start { indices: rows, z: solution.z });
-        Ok(TestOutcome { stands, pivots: solution.counts.pivots })
+        Ok(outcome)
     }
 
     fn descend(&mut self) {

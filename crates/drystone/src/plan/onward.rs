@@ -15,7 +15,10 @@
 
 use super::collapse::Collapse;
 use super::stability::{PlanError, StabilityTest, TestOutcome};
-use crate::formulate::{Assembly, BlockRows, BlockSet, Components};
+use crate::{
+    equilibrium::collapse_motion,
+    formulate::{Assembly, BlockRows, BlockSet, Components},
+};
 use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 
 /// How fast a contact may close and count as at rest, relative to the fastest motion: rounding of the multipliers. In a motion
@@ -46,25 +49,6 @@ impl<'a> Onward<'a> {
         let mut solver = assembly.equilibrium_with_loads();
         let path = vec![solver.mark()];
         Self { assembly, solver, rows: assembly.equilibrium_rows(), path, at_current: true, fell: None }
-    }
-
-    /// The certificate y of what has just fallen has `y' G <= 0`, and the loads do work in the motion -y.
-    fn motion(&self) -> Motion {
-        let components = self.assembly.components();
-        let mut moving: Motion = Vec::new();
-        for (row, y) in self.solver.certificate() {
-            if row >= self.assembly.load_row(0) {
-                continue;
-            }
-            let block = self.rows.block(row);
-            if moving.last().is_none_or(|last| last.0 != block) {
-                moving.push((block, [0.0; 6]));
-            }
-            if let Some((_, velocity)) = moving.last_mut() {
-                velocity[components[row - self.rows.of(block)[0]]] = -y;
-            }
-        }
-        moving
     }
 
     /// Blocks outside a set into which the blocks of the set would run.
@@ -107,7 +91,8 @@ impl<'a> Onward<'a> {
 
     /// How a sub-assembly that was just found to fall does so among all blocks (Lemma 4).
     fn carry_on(&mut self, fallen: &BlockSet) -> Collapse {
-        let (mut known, mut motion, mut props) = (fallen.clone(), self.motion(), Vec::new());
+        let (mut known, mut motion, mut props) =
+            (fallen.clone(), collapse_motion(self.assembly, &self.solver), Vec::new());
         loop {
             let in_the_way = self.in_the_way(&motion, &known);
             let Some(&first) = in_the_way.first() else { break };
@@ -115,7 +100,7 @@ impl<'a> Onward<'a> {
             let together = self.falls_with(&in_the_way);
             let tried = if together { &in_the_way[..] } else { &in_the_way[..1] };
             if together || tried.len() < in_the_way.len() && self.falls_with(tried) {
-                motion = self.motion();
+                motion = collapse_motion(self.assembly, &self.solver);
             } else {
                 props.push(first);
             }
@@ -145,18 +130,13 @@ impl StabilityTest for Onward<'_> {
         self.solver.add_rows(&[self.assembly.load_row(added)]);
         // The last test before the structure is complete brings all forces up to date, and checks them.
         let last = blocks.len() + 1 == self.assembly.blocks();
-        let stands = match if last { self.solver.solve() } else { self.solver.decide() } {
-            Membership::Inside => true,
-            Membership::Outside => {
-                self.fell = Some(self.carry_on(blocks));
-                false
-            }
-            trouble => {
-                let reason = format!("{trouble:?} (residual {:.1e})", self.solver.residual());
-                return Err(PlanError::NoAnswer { blocks: blocks.len(), reason });
-            }
-        };
-        Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
+        let found = if last { self.solver.solve() } else { self.solver.decide() };
+        let outcome =
+            TestOutcome::of_equilibrium(found, &self.solver, self.solver.counts().pivots - before, blocks.len())?;
+        if found == Membership::Outside {
+            self.fell = Some(self.carry_on(blocks));
+        }
+        Ok(TestOutcome { pivots: self.solver.counts().pivots - before, ..outcome })
     }
 
     fn explains(&self) -> bool {

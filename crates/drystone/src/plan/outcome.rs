@@ -80,8 +80,8 @@ pub enum Outcome {
     Found,
     /// Every sub-assembly that can be reached was tested: no stable order exists.
     NoOrder,
-    /// With blocks held: none was found, but a structure was given up that stands under some hold. That hold could not be
-    /// had on the way to it, or there were too many to try.
+    /// None was found, but a structure was given up without a proof that it falls. It is borderline; or, with blocks held, it
+    /// stands under a hold that could not be had on the way to it, or there were too many to try.
     Undecided,
     /// Some blocks lock one another in, so that none of them can be the first to leave along a straight line.
     Locked,
@@ -212,6 +212,11 @@ impl Plan {
             whole: None,
             whole_time: Duration::ZERO,
         }
+    }
+
+    /// Tests that were borderline: their structures were not taken for standing.
+    pub fn borderline(&self) -> usize {
+        self.records.iter().filter(|record| record.outcome.borderline).count()
     }
 
     /// Pivots of all tests.

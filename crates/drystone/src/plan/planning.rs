@@ -19,6 +19,7 @@ use crate::{
     interrupt::Interrupt,
     scene::SceneOf,
 };
+use drystone_lcp::Status;
 use std::{
     sync::atomic::AtomicBool,
     time::{Duration, Instant},
@@ -205,6 +206,17 @@ struct Found {
     whole_time: Duration,
 }
 
+impl Found {
+    /// Whether "falls" would be said of what is borderline, or of what the check has no answer for.
+    fn is_undecided(&self) -> bool {
+        match self.outcome {
+            Outcome::WholeFalls => self.whole.as_ref().is_some_and(|whole| whole.status != Status::Solved),
+            Outcome::NoOrder => self.records.iter().any(|record| record.outcome.borderline),
+            _ => false,
+        }
+    }
+}
+
 fn search_under(
     assembly: &Assembly,
     test: &mut dyn StabilityTest,
@@ -227,6 +239,9 @@ fn search_under(
     };
     if found.outcome == Outcome::NoOrder && hands > 0 {
         search_with_hands(assembly, &touching, paths, hands, &mut clock, &mut found)?;
+    }
+    if found.is_undecided() {
+        found.outcome = Outcome::Undecided;
     }
     let (directions, blocked) = paths.map_or_else(Default::default, |paths| ways(paths, &found, locked));
     let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };

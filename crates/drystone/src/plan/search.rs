@@ -166,7 +166,7 @@ impl<'a> Search<'a> {
             test.descend();
             self.memory.stood(&place);
         } else if test.collapses_however_held().is_empty() {
-            let collapse = test.collapse();
+            let collapse = if outcome.borderline { None } else { test.collapse() };
             collapse.iter().for_each(|collapse| self.candidates.fell(&self.current, added, collapse));
             self.memory.fell(&place, added, collapse);
         } else {

@@ -2,9 +2,10 @@
 
 use super::collapse::Collapse;
 use crate::{
-    check::{moving_blocks, stands_under},
+    equilibrium::collapse_motion,
     error::SceneError,
     formulate::{Assembly, BlockRows, BlockSet, Components},
+    judgement::{Judgement, judge, moving_blocks},
 };
 use drystone_lcp::{
     LcpError, Settings, Snapshot, Solver, Status,
@@ -16,6 +17,8 @@ use drystone_lcp::{
 pub struct TestOutcome {
     /// Whether the sub-assembly stands.
     pub stands: bool,
+    /// Neither is proved, that it stands or that it falls; it is not taken for one that stands.
+    pub borderline: bool,
     /// Pivots made.
     pub pivots: usize,
 }
@@ -93,8 +96,38 @@ pub(super) fn solver_for(assembly: &Assembly) -> Solver {
     Solver::new(assembly.problem(), Settings::default()).expect("A = G' M^-1 G is symmetric with a positive diagonal")
 }
 
+impl TestOutcome {
+    /// What an answer means. None if it is none.
+    pub(super) fn of(found: Membership, pivots: usize) -> Option<Self> {
+        let (stands, borderline) = match found {
+            Membership::Inside => (true, false),
+            Membership::Outside => (false, false),
+            Membership::Borderline => (false, true),
+            _ => return None,
+        };
+        Some(Self { stands, borderline, pivots })
+    }
+
+    /// The same of an equilibrium solver's answer.
+    pub(super) fn of_equilibrium(
+        found: Membership,
+        solver: &ConeSolver,
+        pivots: usize,
+        blocks: usize,
+    ) -> Result<Self, PlanError> {
+        let reason = || format!("{found:?} (residual {:.1e})", solver.residual());
+        Self::of(found, pivots).ok_or_else(|| PlanError::NoAnswer { blocks, reason: reason() })
+    }
+}
+
+/// What a test by the complementarity problem has found, and how it falls if it does.
+pub(super) struct Tested {
+    pub outcome: TestOutcome,
+    pub collapse: Option<Collapse>,
+}
+
 /// Solves what is present by Dantzig's method, and reads the answer.
-fn solve(assembly: &Assembly, solver: &mut Solver, blocks: &BlockSet) -> Result<TestOutcome, PlanError> {
+fn solve(assembly: &Assembly, solver: &mut Solver, blocks: &BlockSet) -> Result<Tested, PlanError> {
     solve_by(Solver::solve, assembly, solver, blocks)
 }
 
@@ -104,25 +137,35 @@ pub(super) fn solve_by(
     assembly: &Assembly,
     solver: &mut Solver,
     blocks: &BlockSet,
-) -> Result<TestOutcome, PlanError> {
+) -> Result<Tested, PlanError> {
     let before = solver.counts().pivots;
     let no_answer = |reason: String| PlanError::NoAnswer { blocks: blocks.len(), reason };
-    match method(solver).map_err(|error| no_answer(error.to_string()))? {
-        Status::Solved => Ok(TestOutcome {
-            stands: stands_under(assembly, blocks, |j| solver.z(j)),
-            pivots: solver.counts().pivots - before,
-        }),
-        status => Err(no_answer(format!("{} (residual {:.1e})", status.name(), solver.residual()))),
-    }
+    let status = method(solver).map_err(|error| no_answer(error.to_string()))?;
+    let force = |j: usize| solver.z(j);
+    let motion = assembly.motion(blocks, force);
+    let judgement = match status {
+        Status::Solved => judge(assembly, blocks, &motion, force),
+        _ => Judgement::by_equilibrium(assembly, blocks),
+    };
+    let outcome = TestOutcome::of(judgement.found(), solver.counts().pivots - before)
+        .ok_or_else(|| no_answer(format!("{} (residual {:.1e})", status.name(), solver.residual())))?;
+    let collapse = match judgement {
+        Judgement::Falls => Some(collapse_of(assembly, moving_blocks(assembly, &motion, force))),
+        Judgement::ByEquilibrium(Membership::Outside, equilibrium) => {
+            Some(collapse_of(assembly, collapse_motion(assembly, &equilibrium)))
+        }
+        _ => None,
+    };
+    Ok(Tested { outcome, collapse })
 }
 
-/// The accelerations v of a fall are a collapse motion: `G' v = w >= 0` and `F' v = v' M v > 0`.
-fn collapse_of(assembly: &Assembly, solver: &Solver, blocks: &BlockSet) -> Collapse {
-    let work = |(block, acceleration): (usize, Components)| {
+/// A motion v of a fall is a collapse motion: `G' v >= 0` and `F' v > 0`. Accelerations are one (`F' v = v' M v`).
+pub(super) fn collapse_of(assembly: &Assembly, motion: impl IntoIterator<Item = (usize, Components)>) -> Collapse {
+    let work = |(block, velocity): (usize, Components)| {
         let components = assembly.components().iter().zip(assembly.applied(block));
-        (block, components.map(|(&k, load)| load * acceleration[k]).sum())
+        (block, components.map(|(&k, load)| load * velocity[k]).sum())
     };
-    Collapse::new(moving_blocks(assembly, blocks, |j| solver.z(j)).map(work).collect())
+    Collapse::new(motion.into_iter().map(work).collect())
 }
 
 /// Every test solves its sub-assembly from scratch.
@@ -130,13 +173,13 @@ fn collapse_of(assembly: &Assembly, solver: &Solver, blocks: &BlockSet) -> Colla
 pub struct FromScratch<'a> {
     assembly: &'a Assembly,
     solver: Solver,
-    tested: BlockSet,
+    collapse: Option<Collapse>,
 }
 
 impl<'a> FromScratch<'a> {
     /// Analyses the complete assembly.
     pub fn new(assembly: &'a Assembly) -> Self {
-        Self { assembly, solver: solver_for(assembly), tested: BlockSet::default() }
+        Self { assembly, solver: solver_for(assembly), collapse: None }
     }
 }
 
@@ -144,8 +187,9 @@ impl StabilityTest for FromScratch<'_> {
     fn test(&mut self, blocks: &BlockSet, _added: usize) -> Result<TestOutcome, PlanError> {
         self.solver.clear();
         self.solver.add_rows(&self.assembly.rows(blocks)).expect("rows of this assembly's problem");
-        self.tested.clone_from(blocks);
-        solve(self.assembly, &mut self.solver, blocks)
+        let tested = solve(self.assembly, &mut self.solver, blocks)?;
+        self.collapse = tested.collapse;
+        Ok(tested.outcome)
     }
 
     fn explains(&self) -> bool {
@@ -153,7 +197,7 @@ impl StabilityTest for FromScratch<'_> {
     }
 
     fn collapse(&self) -> Option<Collapse> {
-        Some(collapse_of(self.assembly, &self.solver, &self.tested))
+        self.collapse.clone()
     }
 }
 
@@ -217,15 +261,8 @@ impl StabilityTest for Reuse {
         self.solver.add_rows(self.rows.of(added));
         // The last test before the structure is complete brings all forces up to date, and checks them.
         let last = blocks.len() + 1 == self.blocks;
-        let stands = match if last { self.solver.solve() } else { self.solver.decide() } {
-            Membership::Inside => true,
-            Membership::Outside => false,
-            trouble => {
-                let reason = format!("{trouble:?} (residual {:.1e})", self.solver.residual());
-                return Err(PlanError::NoAnswer { blocks: blocks.len(), reason });
-            }
-        };
-        Ok(TestOutcome { stands, pivots: self.solver.counts().pivots - before })
+        let found = if last { self.solver.solve() } else { self.solver.decide() };
+        TestOutcome::of_equilibrium(found, &self.solver, self.solver.counts().pivots - before, blocks.len())
     }
 
     fn explains(&self) -> bool {
@@ -256,14 +293,14 @@ pub struct ReuseDantzig<'a> {
     /// States of the current sub-assembly and its ancestors, the current one last.
     path: Vec<Snapshot>,
     at_current: bool,
-    tested: BlockSet,
+    collapse: Option<Collapse>,
 }
 
 impl<'a> ReuseDantzig<'a> {
     /// Analyses the complete assembly; the current sub-assembly is empty.
     pub fn new(assembly: &'a Assembly) -> Self {
         let solver = solver_for(assembly);
-        Self { assembly, path: vec![solver.snapshot()], solver, at_current: true, tested: BlockSet::default() }
+        Self { assembly, path: vec![solver.snapshot()], solver, at_current: true, collapse: None }
     }
 }
 
@@ -276,8 +313,9 @@ impl StabilityTest for ReuseDantzig<'_> {
         }
         self.at_current = false;
         self.solver.add_rows(&self.assembly.rows_added(blocks, added)).expect("rows of this assembly's problem");
-        self.tested.clone_from(blocks);
-        solve(self.assembly, &mut self.solver, blocks)
+        let tested = solve(self.assembly, &mut self.solver, blocks)?;
+        self.collapse = tested.collapse;
+        Ok(tested.outcome)
     }
 
     fn explains(&self) -> bool {
@@ -285,7 +323,7 @@ impl StabilityTest for ReuseDantzig<'_> {
     }
 
     fn collapse(&self) -> Option<Collapse> {
-        Some(collapse_of(self.assembly, &self.solver, &self.tested))
+        self.collapse.clone()
     }
 
     fn descend(&mut self) {

@@ -1,39 +1,11 @@
 //! Blocks come one by one, those that stand before those that fall.
 
 use super::history::History;
-use crate::formulate::{Assembly, BlockRows, BlockSet};
+use crate::{
+    equilibrium::put_up,
+    formulate::{Assembly, BlockRows, BlockSet},
+};
 use drystone_lcp::cone::{ConeSolver, Membership};
-
-/// Blocks put on what falls already until the solver is asked again: every answer costs a pass over all that falls, and
-/// more blocks at once, which nothing holds yet, tie in many pivots. Measured on the arch of 200 voussoirs, where 4 are best (16
-/// take an eighth longer), and on 1000 random blocks, where 16 are (4 take a quarter longer).
-fn together(blocks: usize) -> usize {
-    (blocks / 64).max(4)
-}
-
-/// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, or about
-/// some at a time where what is there falls in between, as half an arch does. `before` is told each block before it comes;
-/// stops, with false, as soon as that says so.
-pub(crate) fn put_up(
-    solver: &mut ConeSolver,
-    rows: &BlockRows,
-    blocks: impl IntoIterator<Item = usize>,
-    mut before: impl FnMut(&mut ConeSolver, usize) -> bool,
-) -> bool {
-    let (mut falls, mut new) = (false, 0);
-    for block in blocks {
-        if new == together(rows.blocks()) || new > 0 && !falls {
-            falls = solver.decide() == Membership::Outside;
-            new = 0;
-        }
-        if !before(solver, block) {
-            return false;
-        }
-        solver.add_rows(rows.of(block));
-        new += 1;
-    }
-    true
-}
 
 /// Blocks that fell one after the other until no more are tried: what is there may fall already. A try costs a pass over
 /// what is there. Of 84 random blocks 8 are better than 2 (0.35 ms in place of 0.52 until all are there and gone again),

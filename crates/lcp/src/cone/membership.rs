@@ -8,6 +8,7 @@
 
 mod bearing;
 mod checking;
+mod doubt;
 mod growing;
 mod keeping;
 mod leaving;
@@ -15,9 +16,12 @@ mod marks;
 mod phase_one;
 mod wear;
 
+pub(super) use doubt::{MARGIN, OF_FORCE, OF_LOAD};
 pub use marks::Mark;
 
-use super::{basis_factor::BasisFactor, columns::Columns, pricing::Pricing, sparse_vector::SparseVector};
+use super::{
+    basis_factor::BasisFactor, columns::Columns, extended::Doubt, pricing::Pricing, sparse_vector::SparseVector,
+};
 use crate::{counts::Counts, error::LcpError};
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +33,9 @@ pub enum Membership {
     Inside,
     /// `h` is not in the cone: the certificate y has `y' G <= 0` and `y' h > 0`.
     Outside,
+    /// Neither is proved: forces that leave next to nothing, and a motion with some power, or neither of the two; see
+    /// `extended.rs` for what counts.
+    Borderline,
     /// The pivot limit was reached.
     PivotLimit,
     /// Accuracy was lost and rebuilding the factor did not bring it back.
@@ -37,7 +44,7 @@ pub enum Membership {
 
 /// What is basic in a position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-enum Basic {
+pub(super) enum Basic {
     /// The unit column of the position's own row: what the row lacks to balance.
     Unit,
     Column(u32),
@@ -77,6 +84,8 @@ pub struct ConeSolver {
     g: Columns,
     h: Vec<f64>,
     row_scale: Vec<f64>,
+    /// The load of each row's own block in the unit of the row.
+    own: Vec<f64>,
     column_scale: Vec<f64>,
     factor: BasisFactor,
     basic: Vec<Basic>,
@@ -129,6 +138,10 @@ pub struct ConeSolver {
     remembers: bool,
     values: usize,
     residual: f64,
+    /// How near the last answer is to either side, if it was borderline.
+    doubt: Option<Doubt>,
+    /// A basic value within this of zero is zero: [`ZERO`], or what rounding leaves of the largest force.
+    zero: f64,
     counts: Counts,
     /// The last pivots showed that digits were lost.
     shaky: bool,
@@ -137,7 +150,7 @@ pub struct ConeSolver {
 }
 
 const OUT: u32 = u32::MAX;
-/// A basic value within this of zero is zero. Values are forces relative to the scaled `h` (largest entry one): rounding
+/// A basic value within this of zero is zero, and within what rounding leaves of the largest force. Values are forces relative to the scaled `h` (largest entry one): rounding
 /// along a path of a thousand blocks is near 1e-13.
 const ZERO: f64 = 1e-10;
 /// Rate of the infeasibility, relative to the largest multiplier, below which a column does not help (columns have a
@@ -154,6 +167,8 @@ const SLACK: f64 = 1e-12;
 const ROUNDING: f64 = 1e-12;
 /// Most refinements in a row; each gains several digits as long as the factor is any good.
 const REFINEMENTS: usize = 3;
+/// Rounding of a value, relative to the largest force.
+const OF_LARGEST: f64 = 8.0 * f64::EPSILON;
 /// Largest imbalance of a row of a solution, relative to the larger of `h` and the largest column times its value.
 const RESIDUAL: f64 = 1e-9;
 /// What is this small in an answer to a unit load is rounding.
@@ -194,6 +209,7 @@ impl ConeSolver {
         Ok(Self {
             h: h.iter().zip(&row_scale).map(|(h, scale)| h * scale).collect(),
             row_scale,
+            own: vec![1.0; m],
             column_scale,
             factor: BasisFactor::identity(m),
             basic: vec![Basic::Unit; m],
@@ -230,11 +246,24 @@ impl ConeSolver {
             remembers: false,
             values: 0,
             residual: 0.0,
+            doubt: None,
+            zero: ZERO,
             counts: Counts::default(),
             shaky: false,
             most_entries: 0,
             g,
         })
+    }
+
+    /// Says what the load of each row's own block is in the unit of its row, if that is not one: at most one. Imbalance is judged
+    /// by it.
+    ///
+    /// # Panics
+    /// If there is not one for each row.
+    pub fn with_own_loads(mut self, own: Vec<f64>) -> Self {
+        assert_eq!(own.len(), self.h.len(), "one for each row");
+        self.own = own;
+        self
     }
 
     /// Columns that enter before all others: as long as one of them lowers the imbalance, no other is looked at.
@@ -250,6 +279,11 @@ impl ConeSolver {
     /// Largest imbalance of a present row in the last solution, in the row's unit.
     pub fn residual(&self) -> f64 {
         self.residual
+    }
+
+    /// After [`Membership::Borderline`]: how near to either side it is.
+    pub fn doubt(&self) -> Option<Doubt> {
+        self.doubt
     }
 
     /// Number of columns of the problem.
@@ -338,6 +372,7 @@ impl ConeSolver {
         let limit = self.counts.pivots + 1000 + 50 * self.rows.len();
         let (mut rebuilt, mut refined) = (false, 0);
         self.group_closed = true;
+        self.doubt = None;
         loop {
             let found = self.phase_one(limit);
             let sound = match found {
@@ -349,24 +384,25 @@ impl ConeSolver {
                         self.sum_rows(); // the worst may be of long ago
                         self.residual = self.imbalance();
                     }
-                    if self.residual > ROUNDING && refined < REFINEMENTS {
+                    let sound = self.residual <= RESIDUAL && self.balances();
+                    if (self.residual > ROUNDING || !sound) && refined < REFINEMENTS {
                         refined += 1;
                         self.refine();
                         continue;
                     }
-                    self.residual <= RESIDUAL
+                    sound
                 }
-                Some(Membership::Outside) => self.certifies(),
+                Some(Membership::Outside) => self.certifies() && self.is_beyond_rounding(),
                 Some(_) => return Membership::PivotLimit,
                 None => false,
             };
             match found {
                 Some(found) if sound => return found,
-                _ if rebuilt => return Membership::NumericalTrouble,
+                _ if rebuilt => return self.decide_extended(),
                 _ => (rebuilt, refined) = (true, 0),
             }
             if !self.rebuild(&self.basis_set()) {
-                return Membership::NumericalTrouble;
+                return self.decide_extended();
             }
             self.recompute_values();
         }
@@ -389,10 +425,10 @@ fn check(rows: usize, h: &[f64], unit: &[f64]) -> Result<(), LcpError> {
 }
 
 /// Sign of the infeasibility of a basic value: a unit column must be zero, a generator not negative.
-fn infeasible(basic: Basic, value: f64) -> f64 {
-    if value < -ZERO {
+fn infeasible(basic: Basic, value: f64, zero: f64) -> f64 {
+    if value < -zero {
         -1.0
-    } else if value > ZERO && basic == Basic::Unit {
+    } else if value > zero && basic == Basic::Unit {
         1.0
     } else {
         0.0

@@ -12,10 +12,12 @@
 mod basis_factor;
 mod columns;
 mod due;
+mod extended;
 mod lists;
 mod membership;
 mod pricing;
 mod sparse_vector;
 
 pub use columns::Columns;
+pub use extended::Doubt;
 pub use membership::{ConeSolver, Mark, Membership};

@@ -145,7 +145,7 @@ impl ConeSolver {
                 for e in 0..self.g.columns_of(row).len() {
                     let (j, _) = self.g.columns_of(row)[e];
                     if self.bears[j as usize] && self.column_group(j) != group {
-                        self.doubt(j);
+                        self.bears_no_more(j);
                         doubtful.push(self.carried_row(j));
                     }
                 }

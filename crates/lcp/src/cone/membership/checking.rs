@@ -1,6 +1,6 @@
 //! The checks on an answer: the imbalance of forces, the signs of a certificate, refinement.
 
-use super::{Basic, ConeSolver, RATE};
+use super::{Basic, ConeSolver, OF_LARGEST, RATE, ZERO};
 use crate::interrupt::poll;
 
 /// Checks between two summations of every row from nothing. In between the sums are carried along with the forces that
@@ -64,6 +64,7 @@ impl ConeSolver {
                 }
             }
         }
+        self.zero = ZERO.max(OF_LARGEST * self.size);
         self.new_rows.clone_from(&self.rows);
     }
 
@@ -80,6 +81,7 @@ impl ConeSolver {
         let change = force - std::mem::replace(&mut self.force[j as usize], force);
         if force > self.size {
             self.size = force;
+            self.zero = ZERO.max(OF_LARGEST * force);
         }
         for &(row, value) in self.g.column(j) {
             self.balance[row as usize] += change * value;

@@ -52,6 +52,7 @@ impl ConeSolver {
         self.factor.resize(m);
         self.basic.resize(m, Basic::Unit);
         self.position.resize(n, OUT);
+        self.own.resize(m, 1.0);
         self.present.resize(m, false);
         self.x.resize(m, 0.0);
         self.force.resize(n, 0.0);

@@ -42,7 +42,7 @@ impl ConeSolver {
     }
 
     /// A column is not known to bear any more.
-    pub(super) fn doubt(&mut self, j: u32) {
+    pub(super) fn bears_no_more(&mut self, j: u32) {
         if std::mem::take(&mut self.bears[j as usize]) {
             self.note(Change::Doubted(j));
         }
@@ -65,7 +65,7 @@ impl ConeSolver {
         }
         let mut columns = basis.columns.clone();
         columns.sort_by_cached_key(|&j| (self.column_group(j), j));
-        (0..self.bears.len() as u32).for_each(|j| self.doubt(j));
+        (0..self.bears.len() as u32).for_each(|j| self.bears_no_more(j));
         let (mut group, mut first) = (0, 0);
         for j in columns {
             if self.column_group(j) != group {
@@ -119,7 +119,7 @@ impl ConeSolver {
         for k in 0..self.direction.len() {
             let (p, value) = self.direction[k];
             self.set_value(p, value);
-            if infeasible(self.basic[p as usize], value) != 0.0 {
+            if infeasible(self.basic[p as usize], value, self.zero) != 0.0 {
                 self.suspects.push(p);
             }
         }

@@ -3,7 +3,7 @@
 use super::super::basis_factor::Replacement;
 use super::{
     Basic, Blocking, Change, ConeSolver, DISAGREEMENT, GROWTH, Membership, OUT, PIVOT, PROGRESS, RATE, SAFE_PIVOT,
-    SLACK, STALL, ZERO, infeasible,
+    SLACK, STALL, infeasible,
 };
 use crate::interrupt::poll;
 
@@ -16,8 +16,8 @@ impl ConeSolver {
             poll(self.suspects.len());
             self.rebuild_if_worn(&mut wear)?;
             let x = &self.x;
-            let basic = &self.basic;
-            self.suspects.retain(|&p| infeasible(basic[p as usize], x[p as usize]) != 0.0);
+            let (basic, zero) = (&self.basic, self.zero);
+            self.suspects.retain(|&p| infeasible(basic[p as usize], x[p as usize], zero) != 0.0);
             if self.suspects.is_empty() {
                 return Some(Membership::Inside);
             }
@@ -60,7 +60,7 @@ impl ConeSolver {
         let y = &mut self.y;
         self.suspects.retain(|&p| y.list(p)); // once each
         for &p in &self.suspects {
-            self.y.set(p, infeasible(self.basic[p as usize], self.x[p as usize]));
+            self.y.set(p, infeasible(self.basic[p as usize], self.x[p as usize], self.zero));
         }
         self.factor.solve_transposed(&mut self.y);
     }
@@ -97,7 +97,7 @@ impl ConeSolver {
     /// A row in balance that the spike alone shows to block the step at once, which saves the direction. Of several the
     /// one with the largest entry.
     pub(super) fn balanced_row(&self) -> Option<(u32, f64)> {
-        let balanced = |p: u32| self.basic[p as usize] == Basic::Unit && self.x[p as usize].abs() <= ZERO;
+        let balanced = |p: u32| self.basic[p as usize] == Basic::Unit && self.x[p as usize].abs() <= self.zero;
         let entry = |p: u32| self.factor.first_solved(p, &self.spike).filter(|entry| entry.abs() > SAFE_PIVOT);
         self.spike
             .index()
@@ -119,7 +119,7 @@ impl ConeSolver {
                 continue;
             }
             let (basic, value) = (self.basic[p as usize], self.x[p as usize]);
-            let sign = infeasible(basic, value);
+            let sign = infeasible(basic, value, self.zero);
             let room = if sign != 0.0 {
                 if sign * rate < 0.0 {
                     continue;
@@ -164,7 +164,7 @@ impl ConeSolver {
             let (p, rate) = self.direction[k];
             let value = self.x[p as usize] - step * rate;
             self.set_value(p, value);
-            if infeasible(self.basic[p as usize], value) != 0.0 {
+            if infeasible(self.basic[p as usize], value, self.zero) != 0.0 {
                 self.suspects.push(p);
             }
         }
@@ -198,7 +198,7 @@ impl ConeSolver {
     /// A column is not basic any more.
     pub(super) fn take_out(&mut self, j: u32) {
         self.position[j as usize] = OUT;
-        self.doubt(j);
+        self.bears_no_more(j);
         self.set_force(j, 0.0);
     }
 

@@ -1,0 +1,1 @@
+"""Random structures, the truth about them, and the proofs of verdicts, for random_structures.py."""

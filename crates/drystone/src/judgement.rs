@@ -1,0 +1,156 @@
+//! Whether blocks stand: the one place that says so, for every method.
+//!
+//! *Stands:* contact forces within the cones leave each block an imbalance of at most 1e-9 of the largest force on it and at
+//! most 1e-6 of its own load. An acceleration alone does not tell: what rounding leaves of a load that passes *through*
+//! a light block is large beside that block's own weight.
+//!
+//! *Falls:* a motion opens contacts or keeps them closed, `G' a >= 0` up to rounding, and the loads do work in it, `F' a`, by
+//! more than ten times what rounding could make of the forces that are there.
+//!
+//! What a complementarity solver leaves in between is decided by an equilibrium (`drystone_lcp::cone`), which refines its
+//! residuals to 32 digits where 16 do not tell. Where both of the above hold even then, or neither, it is borderline.
+
+use crate::{
+    equilibrium::equilibrium_of,
+    formulate::{Assembly, BlockSet, Components},
+    geometry::length,
+};
+use drystone_lcp::cone::{ConeSolver, Membership};
+
+/// A block is at rest while its acceleration stays below this share of gravity; turning counts by the speed of the
+/// block's corner furthest from its centre of mass. Rounding in a stack of some hundred blocks leaves 1e-12; a block that
+/// overhangs an edge by a hundred-millionth of its width has about 1e-8. Where the largest force on the block is above its own
+/// load, the same share of that force.
+pub const AT_REST: f64 = 1e-9;
+
+/// Most acceleration of a block at rest, as a share of gravity, whatever forces pass through it.
+const OF_OWN_LOAD: f64 = 1e-6;
+
+/// Accelerations below this share of gravity do not decide alone: the complementarity solver lets contacts open by
+/// 1e-11 of its scale, and what is left of a motion whose power is that small has the square root of it.
+const DOUBTFUL: f64 = 1e-4;
+
+/// How fast a contact may close in a motion and count as at rest, relative to the fastest point: rounding of the forces, by
+/// which accelerations are computed.
+const CLOSING: f64 = 1e-9;
+
+/// The power of a motion must be above as many times its rounding bound.
+const MARGIN: f64 = 10.0;
+
+/// Rounding of a sum of some ten terms, relative to the largest.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
+/// What is known of a sub-assembly.
+#[derive(Debug)]
+pub(crate) enum Judgement {
+    /// The forces at hand hold it.
+    Stands,
+    /// The accelerations at hand prove that it falls.
+    Falls,
+    /// Neither; what an equilibrium says, and its solver.
+    ByEquilibrium(Membership, Box<ConeSolver>),
+}
+
+impl Judgement {
+    /// Without forces or accelerations at hand.
+    pub fn by_equilibrium(assembly: &Assembly, blocks: &BlockSet) -> Self {
+        let (found, solver) = equilibrium_of(assembly, blocks);
+        Self::ByEquilibrium(found, Box::new(solver))
+    }
+
+    /// The same as a membership.
+    pub fn found(&self) -> Membership {
+        match self {
+            Self::Stands => Membership::Inside,
+            Self::Falls => Membership::Outside,
+            Self::ByEquilibrium(found, _) => *found,
+        }
+    }
+}
+
+/// Accelerations of blocks.
+pub(crate) type Motion = Vec<(usize, Components)>;
+
+/// Judges by the magnitudes of the generators in a solution of the complementarity problem, and the accelerations under it
+/// ([`Assembly::motion`]).
+pub(crate) fn judge(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    motion: &[(usize, Components)],
+    f: impl Fn(usize) -> f64,
+) -> Judgement {
+    let moving = moving_blocks(assembly, motion, &f);
+    if moving.is_empty() {
+        return Judgement::Stands;
+    }
+    let fastest = moving.iter().map(|(block, a)| severity(assembly, *block, a)).fold(0.0, f64::max);
+    if fastest >= DOUBTFUL && proves_fall(assembly, blocks, motion, &f) {
+        return Judgement::Falls;
+    }
+    Judgement::by_equilibrium(assembly, blocks)
+}
+
+/// The blocks that are not at rest, with their accelerations.
+pub(crate) fn moving_blocks(assembly: &Assembly, motion: &[(usize, Components)], f: impl Fn(usize) -> f64) -> Motion {
+    motion.iter().filter(|(block, acceleration)| !at_rest(assembly, *block, acceleration, &f)).copied().collect()
+}
+
+/// Whether the imbalance of the forces on a block, which gives it this acceleration, is none.
+fn at_rest(assembly: &Assembly, block: usize, acceleration: &Components, f: impl Fn(usize) -> f64) -> bool {
+    let severity = severity(assembly, block, acceleration);
+    severity <= AT_REST || severity <= OF_OWN_LOAD && severity <= AT_REST * largest_force(assembly, block, f)
+}
+
+/// The largest force on a block, in its own weights.
+fn largest_force(assembly: &Assembly, block: usize, f: impl Fn(usize) -> f64) -> f64 {
+    let per_mass = assembly.inverse_mass(block)[0];
+    let largest = assembly.generators_on(block).iter().map(|&j| f(j)).fold(0.0, f64::max);
+    largest * per_mass / unit_of_acceleration(assembly)
+}
+
+/// Whether accelerations are a motion in which it falls.
+pub(crate) fn proves_fall(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    moving: &[(usize, Components)],
+    f: impl Fn(usize) -> f64,
+) -> bool {
+    let components = assembly.components();
+    let of = |block: usize| moving.binary_search_by_key(&block, |moving| moving.0).ok().map(|place| &moving[place].1);
+    let fastest = moving.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(speed(assembly, *block, a)));
+    let (mut power, mut bound, mut closing, mut largest) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+    for (block, acceleration) in moving {
+        for (&k, load) in components.iter().zip(assembly.applied(*block)) {
+            power += load * acceleration[k];
+            bound += ROUNDING * (load * acceleration[k]).abs();
+        }
+    }
+    for j in assembly.rows(blocks) {
+        let (mut opening, mut size) = (0.0, 0.0);
+        for wrench in &assembly.generators()[j].wrenches {
+            let Some(acceleration) = of(wrench.block) else { continue };
+            for &k in components {
+                opening += wrench.value[k] * acceleration[k];
+                size += (wrench.value[k] * acceleration[k]).abs();
+            }
+        }
+        closing = closing.max(-opening);
+        largest = largest.max(f(j));
+        bound += ROUNDING * f(j).max(0.0) * size;
+    }
+    closing <= CLOSING * fastest && power > MARGIN * bound
+}
+
+/// Largest acceleration of a point of a block, as a share of gravity (of 1 m/s^2 without gravity).
+fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
+    speed(assembly, block, acceleration) / unit_of_acceleration(assembly)
+}
+
+/// Of the fastest point of a block, or a little less.
+fn speed(assembly: &Assembly, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
+    length([x, y, z]).max(length(*turning) * assembly.body(block).radius)
+}
+
+fn unit_of_acceleration(assembly: &Assembly) -> f64 {
+    Some(length(assembly.gravity())).filter(|&gravity| gravity > 0.0).unwrap_or(1.0)
+}

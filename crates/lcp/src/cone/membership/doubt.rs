@@ -1,0 +1,119 @@
+//! What an answer in 64 bits must hold to count, and what decides where it does not (`extended.rs`).
+
+use super::super::extended::{Decision, Extended};
+use super::{Basic, Change, ConeSolver, Membership, OF_LARGEST};
+
+/// Imbalance of a row that forces may leave: of the largest force in it, and of the block's own load (the row's unit).
+pub(in super::super) const OF_FORCE: f64 = 1e-9;
+pub(in super::super) const OF_LOAD: f64 = 1e-6;
+/// The power of a certificate must be above as many times what rounding could make of the forces.
+pub(in super::super) const MARGIN: f64 = 10.0;
+
+impl ConeSolver {
+    /// Whether the forces balance every block: by the largest force in each row, and by the block's own load, which a load that
+    /// passes through it must not hide.
+    pub(super) fn balances(&self) -> bool {
+        if self.residual * self.size <= OF_FORCE && !self.is_wide() {
+            return true; // of each block's own load, though the forces may be far larger
+        }
+        // What rounding left below zero is given out as zero.
+        let force = |j: u32| self.force[j as usize].max(0.0);
+        let balanced = |&row: &u32| {
+            let (mut sum, mut largest) = (-self.h[row as usize], self.own[row as usize]);
+            for &(j, value) in self.g.columns_of(row) {
+                sum += force(j) * value;
+                largest = largest.max((force(j) * value).abs());
+            }
+            sum.abs() <= (OF_FORCE * largest).min(OF_LOAD * self.own[row as usize])
+        };
+        self.rows.iter().all(balanced)
+    }
+
+    /// Whether some blocks weigh so much less than others that their own load is small in the unit of their rows.
+    pub(super) fn is_wide(&self) -> bool {
+        self.own.iter().any(|&own| own < 1.0)
+    }
+
+    /// Whether the certificate's power is above what would be left of a structure that stands: the imbalance that forces may
+    /// leave, what the directions' rounding makes of the forces, and the work of the largest of them where a contact closes
+    /// by rounding.
+    pub(super) fn is_beyond_rounding(&self) -> bool {
+        if self.is_wide() {
+            return false; // a heavy block's row has only small entries: what they can do is easily overlooked
+        }
+        let (mut bound, mut closing) = (0.0, 0.0_f64);
+        for (row, y) in self.y.iter() {
+            bound += OF_LARGEST * (y * self.h[row as usize]).abs();
+            for &(j, value) in self.g.columns_of(row) {
+                bound += OF_LARGEST * self.force[j as usize].max(0.0) * (y * value).abs();
+                if self.missing[j as usize] == 0 {
+                    let rate: f64 = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row)).sum();
+                    closing = closing.max(rate);
+                }
+            }
+        }
+        let power = self.certificate_power();
+        power > MARGIN * (bound + closing * self.size) && power > 2.0 * OF_FORCE * self.y.largest()
+    }
+
+    /// Decides in double-double arithmetic, from the basis as it is.
+    pub(super) fn decide_extended(&mut self) -> Membership {
+        self.behind = false;
+        if !self.rebuild(&self.basis_set()) {
+            return Membership::NumericalTrouble;
+        }
+        let mut rows = self.rows.clone();
+        rows.sort_unstable();
+        let basis = rows.iter().map(|&row| self.basic[row as usize]).collect();
+        let free = |&j: &u32| self.missing[j as usize] == 0 && self.position[j as usize] == super::OUT;
+        let columns = (0..self.g.len() as u32).filter(free).collect();
+        let decision =
+            Extended { g: &self.g, h: &self.h, own: &self.own, rows: rows.clone(), basis, columns, aside: Vec::new() }
+                .decide();
+        match decision {
+            Some(decision) => self.take_over(&rows, decision),
+            None => Membership::NumericalTrouble,
+        }
+    }
+
+    /// The basis and the values of a decision become the solver's.
+    fn take_over(&mut self, rows: &[u32], decision: Decision) -> Membership {
+        let Decision { found, pivots, values, multipliers, doubt } = decision;
+        self.doubt = doubt;
+        let mut basis = self.basis_set();
+        for (&position, &(entered, _)) in rows.iter().zip(&values) {
+            let left = self.basic[position as usize];
+            if left != entered {
+                self.note(Change::Pivot { position, entered, left });
+            }
+            basis.take(position, left);
+        }
+        rows.iter().zip(&values).for_each(|(&position, &(entered, _))| basis.put(position, entered));
+        self.counts.pivots += pivots;
+        self.counts.major_cycles += pivots;
+        if !self.rebuild(&basis) {
+            return Membership::NumericalTrouble;
+        }
+        self.recompute_values();
+        self.suspects.clear();
+        for (&row, &(basic, value)) in rows.iter().zip(&values) {
+            match basic {
+                Basic::Unit => self.set_value(row, value),
+                Basic::Column(j) if self.position[j as usize] != super::OUT => {
+                    self.set_value(self.position[j as usize], value);
+                }
+                // The factor in 64 bits has left it out; a certificate has no need of it.
+                Basic::Column(_) if found == Membership::Inside => return Membership::NumericalTrouble,
+                Basic::Column(_) => {}
+            }
+        }
+        self.sum_rows();
+        self.residual = self.imbalance();
+        if found == Membership::Inside {
+            self.suspects.clear();
+        }
+        self.y.clear();
+        rows.iter().zip(&multipliers).filter(|(_, y)| **y != 0.0).for_each(|(&row, &y)| self.y.set(row, y));
+        found
+    }
+}
