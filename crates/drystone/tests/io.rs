@@ -62,7 +62,7 @@ fn all_fields_come_back() {
         fixed: true,
         ..BodyOptions::default()
     };
-    scene.add_box([-0.0, 1.0 / 3.0], [1e-300_f64.sqrt(), 1e150], 1e-17, options).unwrap();
+    scene.add_box([-0.0, 1.0 / 3.0], [1e-3 / 3.0, 1e4 / 7.0], 1e-17, options).unwrap();
     scene.add_polygon(&[[1e6, 0.1], [1e6 + 1.0, 0.3], [1e6, 1.7]], BodyOptions::default()).unwrap();
     let text = text_of(&scene);
     let again = io::from_json(&text, SOURCE).unwrap();
