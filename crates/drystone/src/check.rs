@@ -115,7 +115,13 @@ pub(crate) fn by_equilibrium(
     go_on: &mut GoOn<'_>,
 ) -> Option<Verdict> {
     match found {
-        Membership::Inside | Membership::Borderline => Some(held(assembly, blocks, equilibrium, spent)),
+        Membership::Inside => Some(held(assembly, blocks, equilibrium, spent)),
+        // Accelerations may prove the fall that the multipliers do not: they are the best motion, not the first.
+        Membership::Borderline => {
+            let moved = complementarity_while(assembly, blocks, None, spent, go_on)?;
+            let falls = moved.status == Status::Solved && !moved.stable;
+            Some(if falls { moved } else { held(assembly, blocks, equilibrium, spent) })
+        }
         _ => {
             let fell = (found == Membership::Outside).then_some(equilibrium);
             complementarity_while(assembly, blocks, fell, spent, go_on)

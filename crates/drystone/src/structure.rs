@@ -14,7 +14,7 @@ use crate::{
     scene::SceneOf,
 };
 use drystone_lcp::{
-    Counts,
+    Counts, Status,
     cone::{ConeSolver, Membership},
 };
 use fall::Fall;
@@ -155,8 +155,17 @@ impl Structure {
         match found {
             Membership::Inside => Some(true),
             Membership::Outside => Some(false),
-            _ => None,
+            // The accelerations may tell what the forces do not.
+            _ => {
+                let verdict = self.by_equilibrium(found, Counts::default());
+                (verdict.status == Status::Solved).then_some(verdict.stable)
+            }
         }
+    }
+
+    fn by_equilibrium(&self, found: Membership, spent: Counts) -> Verdict {
+        check::by_equilibrium(&self.assembly, &self.blocks, found, &self.solver, spent, &mut |_| true)
+            .expect("nobody stops it")
     }
 
     /// Whether the last answer was neither: standing and falling are both within what is allowed, or neither is proved.
@@ -182,8 +191,7 @@ impl Structure {
         let found = self.solver.solve();
         self.fell = found == Membership::Outside;
         let spent = self.solver.counts() - before;
-        check::by_equilibrium(&self.assembly, &self.blocks, found, &self.solver, spent, &mut |_| true)
-            .expect("nobody stops it")
+        self.by_equilibrium(found, spent)
     }
 
     /// Work done so far.

@@ -46,7 +46,9 @@ pub(super) struct Extended<'a> {
     pub basis: Vec<Basic>,
     /// Columns that take part and are not basic.
     pub columns: Vec<u32>,
-    /// Columns that depend on basic ones but for rounding.
+    /// Columns that would help only by what rounding makes of the basic ones that they depend on.
+    pub dependent: Vec<u32>,
+    /// Columns with which the basis is singular but for rounding.
     pub aside: Vec<u32>,
 }
 
@@ -95,7 +97,8 @@ impl<'a> Extended<'a> {
         };
         let load: Vec<TwoFloat> = self.rows.iter().map(|&row| self.h[row as usize].into()).collect();
         let (mut best, mut stalled) = (TwoFloat::from(f64::INFINITY), 0);
-        for pivots in 0..limit {
+        let mut pivots = 0;
+        for _ in 0..limit {
             poll_now();
             let Some((x, signs, y)) = self.values(&mut factored, &load) else {
                 factored = self.retreat(&mut path)?;
@@ -109,6 +112,9 @@ impl<'a> Extended<'a> {
             best = infeasibility;
             let least_index = stalled > STALL;
             let Some(entering) = self.entering(&y, least_index) else {
+                if self.take_up_dependent(&mut factored, &y) {
+                    continue;
+                }
                 if self.helps_aside(&y) {
                     return None;
                 }
@@ -116,14 +122,19 @@ impl<'a> Extended<'a> {
                 return Some(self.ended(found, doubt, pivots, &x, &y));
             };
             let direction = factored.solve(&factored.scattered(entering));
-            let blocking = direction.as_ref().and_then(|d| self.blocking(&x, &signs, d, least_index));
             self.columns.retain(|&j| j != entering);
+            if direction.as_ref().is_some_and(|direction| !self.helps(&y, entering, direction)) {
+                self.dependent.push(entering);
+                continue;
+            }
+            let blocking = direction.as_ref().and_then(|d| self.blocking(&x, &signs, d, least_index));
             let (Some(direction), Some(place)) = (direction, blocking) else {
                 self.aside.push(entering);
                 continue;
             };
             let left = std::mem::replace(&mut self.basis[place], Basic::Column(entering));
             path.push(Exchange { place, left });
+            pivots += 1;
             if let Basic::Column(j) = left {
                 self.columns.push(j);
             }
@@ -179,8 +190,35 @@ impl<'a> Extended<'a> {
         }
         let begun = self.columns.len() > before;
         self.columns.append(&mut self.aside);
+        self.columns.append(&mut self.dependent);
         self.columns.sort_unstable();
         begun.then_some(())
+    }
+
+    /// Whether a column lowers the infeasibility by more than rounding. Its rate is that of `g - B d`, which is zero but for the
+    /// entries' rounding if it depends on the basic columns: the multipliers of these may be far larger than its own.
+    fn helps(&self, y: &[TwoFloat], j: u32, direction: &[TwoFloat]) -> bool {
+        let multiplier = self.by_row(y);
+        let of_basic = |(basic, d): (&Basic, &TwoFloat)| match *basic {
+            Basic::Column(k) if d.hi() != 0.0 => d.hi().abs() * self.rate(&multiplier, k).1,
+            _ => 0.0,
+        };
+        let (rate, size) = self.rate(&multiplier, j);
+        rate > ROUNDING * (size + self.basis.iter().zip(direction).map(of_basic).sum::<f64>())
+    }
+
+    /// Takes up again what depended on an earlier basis and helps now. Whether there is any.
+    fn take_up_dependent(&mut self, factored: &mut Factored<'_>, y: &[TwoFloat]) -> bool {
+        let dependent = std::mem::take(&mut self.dependent);
+        let before = self.columns.len();
+        for j in dependent {
+            let direction = factored.solve(&factored.scattered(j));
+            match direction {
+                Some(direction) if !self.helps(y, j, &direction) => self.dependent.push(j),
+                _ => self.columns.push(j),
+            }
+        }
+        self.columns.len() > before
     }
 
     /// Whether a column that was set aside would lower the infeasibility.

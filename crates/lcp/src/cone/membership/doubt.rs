@@ -67,9 +67,17 @@ impl ConeSolver {
         let basis = rows.iter().map(|&row| self.basic[row as usize]).collect();
         let free = |&j: &u32| self.missing[j as usize] == 0 && self.position[j as usize] == super::OUT;
         let columns = (0..self.g.len() as u32).filter(free).collect();
-        let decision =
-            Extended { g: &self.g, h: &self.h, own: &self.own, rows: rows.clone(), basis, columns, aside: Vec::new() }
-                .decide();
+        let decision = Extended {
+            g: &self.g,
+            h: &self.h,
+            own: &self.own,
+            rows: rows.clone(),
+            basis,
+            columns,
+            dependent: Vec::new(),
+            aside: Vec::new(),
+        }
+        .decide();
         match decision {
             Some(decision) => self.take_over(&rows, decision),
             None => Membership::NumericalTrouble,
