@@ -40,6 +40,13 @@ def test_walks_are_of_families_that_there_are() -> None:
     assert set(random_lcps.WALKS) <= {family.name for family in FAMILIES}
 
 
+def test_the_named_eigenvalue_is_one_that_m_has() -> None:
+    """Here the direction has an image of 1e-4 beside its own curvature, which is positive."""
+    family = next(family for family in FAMILIES if family.name == "9 decimals")
+    tally = random_lcps.single_problems(family, range(1528, 1529))
+    assert tally.judged == {Judgement.RIGHT: tally.answers}, tally.remarks
+
+
 TWO = Problem(np.array([[1.0, -1.0], [-1.0, 1.0]]), np.array([-1.0, -1.0]))
 
 

@@ -84,7 +84,7 @@ impl Solver {
                 return Ok(Cycle::Feasible);
             }
             if blocked.is_none() && self.w[i] < -self.violation() {
-                if self.certify_ray(i, size)? {
+                if self.certify_ray(i, size, slope)? {
                     return Ok(Cycle::Ray);
                 }
                 let rounding = if self.is_little(i) { CURVATURE_ROUNDING } else { FINE_CURVATURE };
@@ -255,12 +255,13 @@ impl Solver {
     }
 
     /// Nothing blocks the direction: y = dz then proves that there is no solution, if it is a certificate.
-    /// `y' M y = 0` with `(M y)_j = a` not zero is negative curvature: `y - a e_j` has `-a^2` (unit diagonal).
-    fn certify_ray(&mut self, i: usize, size: f64) -> Result<bool, LcpError> {
+    /// `y' M y = 0` with `(M y)_j = a` not zero is negative curvature: `y - a e_j` has `y' M y - a^2` (unit diagonal).
+    fn certify_ray(&mut self, i: usize, size: f64, slope: f64) -> Result<bool, LcpError> {
         let present = |&j: &usize| self.role[j] != Role::Absent;
         let worst = self.reached.iter().copied().filter(present).fold(0.0_f64, |worst, j| worst.max(self.dw[j].abs()));
-        if worst * worst > self.settings.residual * size * size {
-            let eigenvalue = -worst * worst / (self.direction_squared() + worst * worst);
+        let curvature = slope - worst * worst;
+        if curvature < -self.settings.residual * size * size {
+            let eigenvalue = curvature / (self.direction_squared() + worst * worst);
             return Err(LcpError::NotSemidefinite { index: i, eigenvalue });
         }
         let direction = self.dz.clone();
