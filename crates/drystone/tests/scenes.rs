@@ -243,7 +243,7 @@ fn the_registry_says_what_is_wrong() {
         text("pyramid", &[("rows", json!("many"))]),
         "pyramid: rows is \"many\": give a whole number from 1 to 1000"
     );
-    assert_eq!(text("slope", &[("friction", json!(-1))]), "slope: friction is -1: give a number of at least 0");
+    assert_eq!(text("slope", &[("friction", json!(-1))]), "slope: friction is -1: give a number from 0 to 1000000");
     let nan = scenes::arch(10, f64::NAN, 0.7).unwrap_err();
     assert!(matches!(nan, SceneError::BadParameter { .. }), "{nan}");
 }
