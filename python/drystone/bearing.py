@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
+from drystone.text import shown
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -28,12 +30,13 @@ class Unsupported:
 
     def __str__(self) -> str:
         touched = f"{_listed(self.touches)} only, not from above" if self.touches else "nothing"
-        text = f'Block "{self.name}" touches {touched}'
+        text = f'Block "{shown(self.name)}" touches {touched}'
         if self.nearest is None:
             return text + "."
+        nearest = shown(self.nearest)
         if self.distance == 0.0:
-            return f'{text}; "{self.nearest}" meets it at a corner or an edge, which bears nothing.'
-        return f'{text}; "{self.nearest}" is {self.distance:.3g} m away.'
+            return f'{text}; "{nearest}" meets it at a corner or an edge that bears nothing.'
+        return f'{text}; "{nearest}" is {self.distance:.3g} m away.'
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +52,8 @@ class NearMiss:
 
     def __str__(self) -> str:
         return (
-            f'With contact_tolerance={self.contact_tolerance:.3g} "{self.a}" would touch '
-            f'"{self.b}": gap {self.gap:.3g} m.'
+            f'With contact_tolerance={self.contact_tolerance:.3g} "{shown(self.a)}" would touch '
+            f'"{shown(self.b)}": gap {self.gap:.3g} m.'
         )
 
 
@@ -96,4 +99,4 @@ def _some(things: Sequence[Unsupported] | Sequence[NearMiss], called: str) -> li
 
 
 def _listed(names: Sequence[str]) -> str:
-    return ", ".join(f'"{name}"' for name in names)
+    return ", ".join(f'"{shown(name)}"' for name in names)
