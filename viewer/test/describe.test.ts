@@ -40,7 +40,7 @@ test("a run's card says where the body is", async () => {
     const film = await filmOf(runRecording());
     const rows = Object.fromEntries(facts(film, 1, 2));
     assert.equal(rows.state, "moving");
-    assert.equal(rows.centroid, "2, 1 m");
+    assert.equal(rows["centre of mass"], "2, 1 m");
     assert.equal(rows.turn, "90°");
     assert.equal(place(film, 1), "0.200 s · step 2 of 2");
     assert.equal(caption(film, 1), "1 of 2 blocks motionless");

@@ -31,7 +31,7 @@ test("a card in space says kilograms a cubic metre, and how far a body is turned
     const film = await filmOf(tumbling());
     const rows = Object.fromEntries(facts(film, 1, 2));
     assert.equal(rows.mass, "2 kg (2 kg/m³)");
-    assert.equal(rows.centroid, "0, 2, 1 m");
+    assert.equal(rows["centre of mass"], "0, 2, 1 m");
     assert.equal(rows.turn, "90°");
 });
 
