@@ -5,7 +5,7 @@ use crate::{
     equilibrium::{accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
     error::SceneError,
     formulate::{Acceleration, Assemble, Assembly, BlockSet, Components, ContactForce},
-    judgement::{Judgement, Motion, judge, moving_blocks, proves_fall},
+    judgement::{CLOSING_AS_SOLVED, Judgement, Motion, judge, moving_blocks, proves_fall},
     scene::SceneOf,
 };
 use drystone_lcp::{
@@ -151,8 +151,9 @@ fn complementarity_while(
     let motion = assembly.motion(blocks, force);
     let found = verdict(assembly, blocks, force, &motion, status, counts, solver.residual());
     let fallen = |found: Verdict, equilibrium: &ConeSolver| {
-        let proved =
-            status == Status::Solved && !found.falling.is_empty() && proves_fall(assembly, blocks, &motion, force);
+        let proved = status == Status::Solved
+            && !found.falling.is_empty()
+            && proves_fall(assembly, blocks, &motion, force, CLOSING_AS_SOLVED);
         if proved { Verdict { stable: false, ..found } } else { by_collapse(assembly, found, equilibrium) }
     };
     let judgement = match (fell, status) {

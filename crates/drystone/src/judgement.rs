@@ -34,6 +34,9 @@ const DOUBTFUL: f64 = 1e-4;
 /// which accelerations are computed.
 const CLOSING: f64 = 1e-9;
 
+/// The same of accelerations that need prove nothing, since a certificate does: what the complementarity solver's tolerance leaves.
+pub(crate) const CLOSING_AS_SOLVED: f64 = 1e-6;
+
 /// The power of a motion must be above as many times its rounding bound.
 const MARGIN: f64 = 10.0;
 
@@ -84,7 +87,7 @@ pub(crate) fn judge(
         return Judgement::Stands;
     }
     let fastest = moving.iter().map(|(block, a)| severity(assembly, *block, a)).fold(0.0, f64::max);
-    if fastest >= DOUBTFUL && proves_fall(assembly, blocks, motion, &f) {
+    if fastest >= DOUBTFUL && proves_fall(assembly, blocks, motion, &f, CLOSING) {
         return Judgement::Falls;
     }
     Judgement::by_equilibrium(assembly, blocks)
@@ -108,12 +111,13 @@ fn largest_force(assembly: &Assembly, block: usize, f: impl Fn(usize) -> f64) ->
     largest * per_mass / unit_of_acceleration(assembly)
 }
 
-/// Whether accelerations are a motion in which it falls.
+/// Whether accelerations are a motion in which it falls; contacts may close by a share of the fastest.
 pub(crate) fn proves_fall(
     assembly: &Assembly,
     blocks: &BlockSet,
     moving: &[(usize, Components)],
     f: impl Fn(usize) -> f64,
+    closing_share: f64,
 ) -> bool {
     let components = assembly.components();
     let of = |block: usize| moving.binary_search_by_key(&block, |moving| moving.0).ok().map(|place| &moving[place].1);
@@ -138,7 +142,7 @@ pub(crate) fn proves_fall(
         largest = largest.max(f(j));
         bound += ROUNDING * f(j).max(0.0) * size;
     }
-    closing <= CLOSING * fastest && power > MARGIN * bound
+    closing <= closing_share * fastest && power > MARGIN * bound
 }
 
 /// Largest acceleration of a point of a block, as a share of gravity (of 1 m/s^2 without gravity).
