@@ -86,6 +86,8 @@ pub struct ConeSolver {
     row_scale: Vec<f64>,
     /// The load of each row's own block in the unit of the row.
     own: Vec<f64>,
+    /// Some blocks weigh so much less than others that their own load is small in the unit of their rows.
+    wide: bool,
     column_scale: Vec<f64>,
     factor: BasisFactor,
     basic: Vec<Basic>,
@@ -210,6 +212,7 @@ impl ConeSolver {
             h: h.iter().zip(&row_scale).map(|(h, scale)| h * scale).collect(),
             row_scale,
             own: vec![1.0; m],
+            wide: false,
             column_scale,
             factor: BasisFactor::identity(m),
             basic: vec![Basic::Unit; m],
@@ -262,6 +265,7 @@ impl ConeSolver {
     /// If there is not one for each row.
     pub fn with_own_loads(mut self, own: Vec<f64>) -> Self {
         assert_eq!(own.len(), self.h.len(), "one for each row");
+        self.wide = own.iter().any(|&own| own < 1.0);
         self.own = own;
         self
     }

@@ -13,7 +13,7 @@ impl ConeSolver {
     /// Whether the forces balance every block: by the largest force in each row, and by the block's own load, which a load that
     /// passes through it must not hide.
     pub(super) fn balances(&self) -> bool {
-        if self.residual * self.size <= OF_FORCE && !self.is_wide() {
+        if self.residual * self.size <= OF_FORCE && !self.wide {
             return true; // of each block's own load, though the forces may be far larger
         }
         // What rounding left below zero is given out as zero.
@@ -29,16 +29,11 @@ impl ConeSolver {
         self.rows.iter().all(balanced)
     }
 
-    /// Whether some blocks weigh so much less than others that their own load is small in the unit of their rows.
-    pub(super) fn is_wide(&self) -> bool {
-        self.own.iter().any(|&own| own < 1.0)
-    }
-
     /// Whether the certificate's power is above what would be left of a structure that stands: the imbalance that forces may
     /// leave, what the directions' rounding makes of the forces, and the work of the largest of them where a contact closes
     /// by rounding.
     pub(super) fn is_beyond_rounding(&self) -> bool {
-        if self.is_wide() {
+        if self.wide {
             return false; // a heavy block's row has only small entries: what they can do is easily overlooked
         }
         let (mut bound, mut closing) = (0.0, 0.0_f64);
