@@ -12,16 +12,14 @@
 mod factored;
 
 use super::{
+    answer::{Doubt, MARGIN, Membership, OF_FORCE, OF_LOAD},
+    basic::{Basic, ZERO, infeasible},
     columns::Columns,
-    membership::{Basic, MARGIN, Membership, OF_FORCE, OF_LOAD},
 };
 use crate::interrupt::poll_now;
 use factored::Factored;
-use serde::{Deserialize, Serialize};
 use twofloat::TwoFloat;
 
-/// Values of this size and less are zero, as in 64 bits (`membership.rs`): 1e-10 of a block's own load.
-const ZERO: f64 = 1e-10;
 /// Rounding of directions: a rate below this share of the sum of its terms is none. A column that depends on some ten others but
 /// for the rounding of all their entries has a rate of that size.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -34,22 +32,20 @@ const PROGRESS: f64 = 1e-15;
 /// Pivots without progress after which ties go by least index (Bland 1977).
 const STALL: usize = 50;
 
-/// What a decision starts from: the present rows, the columns that may bear, and what is basic in each row's position.
+/// A decision under way.
 pub(super) struct Extended<'a> {
-    pub g: &'a Columns,
-    pub h: &'a [f64],
-    /// The load of each row's own block, in the unit of the row.
-    pub own: &'a [f64],
-    /// Present rows.
-    pub rows: Vec<u32>,
+    g: &'a Columns,
+    h: &'a [f64],
+    own: &'a [f64],
+    rows: Vec<u32>,
     /// Of each present row.
-    pub basis: Vec<Basic>,
+    basis: Vec<Basic>,
     /// Columns that take part and are not basic.
-    pub columns: Vec<u32>,
+    columns: Vec<u32>,
     /// Columns that would help only by what rounding makes of the basic ones that they depend on.
-    pub dependent: Vec<u32>,
+    dependent: Vec<u32>,
     /// Columns with which the basis is singular but for rounding.
-    pub aside: Vec<u32>,
+    aside: Vec<u32>,
 }
 
 /// One exchange: where, and what went.
@@ -57,15 +53,6 @@ pub(super) struct Extended<'a> {
 struct Exchange {
     place: usize,
     left: Basic,
-}
-
-/// How near a borderline answer is to either side.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Doubt {
-    /// Least imbalance that any forces leave, in a block's own load.
-    pub imbalance: f64,
-    /// Power of the certificate, as a multiple of what rounding could make of the forces.
-    pub power: f64,
 }
 
 /// What forces leave in a row.
@@ -87,6 +74,19 @@ pub(super) struct Decision {
 }
 
 impl<'a> Extended<'a> {
+    /// Takes the load of each row's own block in the unit of the row, the rows present, what is basic in the position of each,
+    /// and the columns that take part without being basic.
+    pub fn new(
+        g: &'a Columns,
+        h: &'a [f64],
+        own: &'a [f64],
+        rows: Vec<u32>,
+        basis: Vec<Basic>,
+        columns: Vec<u32>,
+    ) -> Self {
+        Self { g, h, own, rows, basis, columns, dependent: Vec::new(), aside: Vec::new() }
+    }
+
     /// Pivots to the end. None if accuracy is lost even so.
     pub fn decide(mut self) -> Option<Decision> {
         let limit = 1000 + 50 * self.rows.len();
@@ -181,6 +181,7 @@ impl<'a> Extended<'a> {
         }
     }
 
+    /// Every row has its unit column again. None if it had.
     fn begin_anew(&mut self) -> Option<()> {
         let before = self.columns.len();
         for basic in &mut self.basis {
@@ -366,16 +367,5 @@ impl<'a> Extended<'a> {
     ) -> Decision {
         let values = self.basis.iter().zip(x).map(|(&basic, x)| (basic, x.hi())).collect();
         Decision { found, pivots, values, multipliers: y.iter().map(|y| y.hi()).collect(), doubt }
-    }
-}
-
-/// Sign of the infeasibility of a basic value: a unit column must be zero, a generator not negative.
-fn infeasible(basic: Basic, value: f64, zero: f64) -> f64 {
-    if value < -zero {
-        -1.0
-    } else if value > zero && basic == Basic::Unit {
-        1.0
-    } else {
-        0.0
     }
 }

@@ -16,39 +16,18 @@ mod marks;
 mod phase_one;
 mod wear;
 
-pub(super) use doubt::{MARGIN, OF_FORCE, OF_LOAD};
 pub use marks::Mark;
 
 use super::{
-    basis_factor::BasisFactor, columns::Columns, extended::Doubt, pricing::Pricing, sparse_vector::SparseVector,
+    answer::{Doubt, Membership},
+    basic::{Basic, ZERO, infeasible},
+    basis_factor::BasisFactor,
+    columns::Columns,
+    pricing::Pricing,
+    sparse_vector::SparseVector,
 };
 use crate::{counts::Counts, error::LcpError};
 use serde::{Deserialize, Serialize};
-
-/// What a solve found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Membership {
-    /// `h` is in the cone: `f` was found and its residual is within the tolerance.
-    Inside,
-    /// `h` is not in the cone: the certificate y has `y' G <= 0` and `y' h > 0`.
-    Outside,
-    /// Neither is proved: forces that leave next to nothing, and a motion with some power, or neither of the two; see
-    /// `extended.rs` for what counts.
-    Borderline,
-    /// The pivot limit was reached.
-    PivotLimit,
-    /// Accuracy was lost and rebuilding the factor did not bring it back.
-    NumericalTrouble,
-}
-
-/// What is basic in a position.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Basic {
-    /// The unit column of the position's own row: what the row lacks to balance.
-    Unit,
-    Column(u32),
-}
 
 /// A basic value that limits the step.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -152,9 +131,6 @@ pub struct ConeSolver {
 }
 
 const OUT: u32 = u32::MAX;
-/// A basic value within this of zero is zero, and within what rounding leaves of the largest force. Values are forces relative to the scaled `h` (largest entry one): rounding
-/// along a path of a thousand blocks is near 1e-13.
-const ZERO: f64 = 1e-10;
 /// Rate of the infeasibility, relative to the largest multiplier, below which a column does not help (columns have a
 /// largest entry of one): less is rounding of the multipliers.
 const RATE: f64 = 1e-9;
@@ -396,7 +372,7 @@ impl ConeSolver {
                     }
                     sound
                 }
-                Some(Membership::Outside) => self.certifies() && self.is_beyond_rounding(),
+                Some(Membership::Outside) => self.certifies(),
                 Some(_) => return Membership::PivotLimit,
                 None => false,
             };
@@ -425,16 +401,5 @@ fn check(rows: usize, h: &[f64], unit: &[f64]) -> Result<(), LcpError> {
     match unit.iter().position(|&unit| unit.is_nan() || unit <= 0.0 || unit.is_infinite()) {
         Some(row) => Err(LcpError::Structure { reason: format!("the unit of row {row} is {}", unit[row]) }),
         None => Ok(()),
-    }
-}
-
-/// Sign of the infeasibility of a basic value: a unit column must be zero, a generator not negative.
-fn infeasible(basic: Basic, value: f64, zero: f64) -> f64 {
-    if value < -zero {
-        -1.0
-    } else if value > zero && basic == Basic::Unit {
-        1.0
-    } else {
-        0.0
     }
 }

@@ -9,6 +9,8 @@
 //! is decided on G: rows and columns come and go, the factor of the basis follows them, and only what a change
 //! reaches is touched.
 
+mod answer;
+mod basic;
 mod basis_factor;
 mod columns;
 mod due;
@@ -18,6 +20,6 @@ mod membership;
 mod pricing;
 mod sparse_vector;
 
+pub use answer::{Doubt, Membership};
 pub use columns::Columns;
-pub use extended::Doubt;
-pub use membership::{ConeSolver, Mark, Membership};
+pub use membership::{ConeSolver, Mark};

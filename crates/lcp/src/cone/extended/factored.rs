@@ -1,6 +1,6 @@
 //! A basis factored in 64 bits, whose solutions are refined to double-double numbers.
 
-use super::super::{columns::Columns, membership::Basic};
+use super::super::{basic::Basic, columns::Columns};
 use crate::refined::{Square, refined};
 use twofloat::TwoFloat;
 
@@ -50,28 +50,24 @@ impl<'a> Factored<'a> {
         self.square.factor()
     }
 
-    /// `B x = b`; the basis is factored anew if its factor is worn.
+    /// `B x = b`.
     pub fn solve(&mut self, b: &[TwoFloat]) -> Option<Vec<TwoFloat>> {
-        let solve = |of: &Self| refined(b, |r| of.solve_roughly(r), |x| of.square.residual(b, x));
-        match solve(self) {
-            None if !self.replaced.is_empty() => {
-                self.factor_anew()?;
-                solve(self)
-            }
-            solved => solved,
-        }
+        self.or_anew(|of| refined(b, |r| of.solve_roughly(r), |x| of.square.residual(b, x)))
     }
 
-    /// `B' y = c`; the basis is factored anew if its factor is worn.
+    /// `B' y = c`.
     pub fn solve_transposed(&mut self, c: &[TwoFloat]) -> Option<Vec<TwoFloat>> {
-        let solve = |of: &Self| refined(c, |r| of.solve_transposed_roughly(r), |y| of.square.residual_transposed(c, y));
-        match solve(self) {
-            None if !self.replaced.is_empty() => {
-                self.factor_anew()?;
-                solve(self)
-            }
-            solved => solved,
+        self.or_anew(|of| refined(c, |r| of.solve_transposed_roughly(r), |y| of.square.residual_transposed(c, y)))
+    }
+
+    /// Solves, once more with a new factor if this one is worn.
+    fn or_anew<T>(&mut self, solve: impl Fn(&Self) -> Option<T>) -> Option<T> {
+        let solved = solve(self);
+        if solved.is_some() || self.replaced.is_empty() {
+            return solved;
         }
+        self.factor_anew()?;
+        solve(self)
     }
 
     fn solve_roughly(&self, b: &[f64]) -> Vec<f64> {

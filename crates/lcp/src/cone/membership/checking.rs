@@ -1,6 +1,6 @@
-//! The checks on an answer: the imbalance of forces, the signs of a certificate, refinement.
+//! The imbalance of forces, and refinement.
 
-use super::{Basic, ConeSolver, OF_LARGEST, RATE, ZERO};
+use super::{Basic, ConeSolver, OF_LARGEST, ZERO};
 use crate::interrupt::poll;
 
 /// Checks between two summations of every row from nothing. In between the sums are carried along with the forces that
@@ -109,19 +109,6 @@ impl ConeSolver {
         self.factor.apply_operations(&mut self.spike);
         self.direction_from_spike();
         self.step(-1.0);
-    }
-
-    /// Whether y proves that `h` is outside: `y' g <= 0` for every present column, up to rounding, and `y' h > 0`, which is
-    /// the infeasibility that is left by another route: if they differ, the values are worn.
-    pub(super) fn certifies(&self) -> bool {
-        let size = self.y.largest();
-        let power = self.certificate_power();
-        let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
-        let rises = |&(j, _): &(u32, f64)| {
-            let rate: f64 = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row)).sum();
-            self.missing[j as usize] == 0 && rate > 10.0 * RATE * size
-        };
-        power > 0.5 * infeasibility && !self.y.iter().any(|(row, _)| self.g.columns_of(row).iter().any(rises))
     }
 }
 

@@ -1,13 +1,11 @@
 //! What an answer in 64 bits must hold to count, and what decides where it does not (`extended.rs`).
 
-use super::super::extended::{Decision, Extended};
-use super::{Basic, Change, ConeSolver, Membership, OF_LARGEST};
-
-/// Imbalance of a row that forces may leave: of the largest force in it, and of the block's own load (the row's unit).
-pub(in super::super) const OF_FORCE: f64 = 1e-9;
-pub(in super::super) const OF_LOAD: f64 = 1e-6;
-/// The power of a certificate must be above as many times what rounding could make of the forces.
-pub(in super::super) const MARGIN: f64 = 10.0;
+use super::super::{
+    answer::{MARGIN, Membership, OF_FORCE, OF_LOAD},
+    basic::Basic,
+    extended::{Decision, Extended},
+};
+use super::{Change, ConeSolver, OF_LARGEST, RATE};
 
 impl ConeSolver {
     /// Whether the forces balance every block: by the largest force in each row, and by the block's own load, which a load that
@@ -29,12 +27,16 @@ impl ConeSolver {
         self.rows.iter().all(balanced)
     }
 
-    /// Whether the certificate's power is above what would be left of a structure that stands: the imbalance that forces may
-    /// leave, what the directions' rounding makes of the forces, and the work of the largest of them where a contact closes
-    /// by rounding.
-    pub(super) fn is_beyond_rounding(&self) -> bool {
-        if self.wide {
-            return false; // a heavy block's row has only small entries: what they can do is easily overlooked
+    /// Whether y proves that `h` is outside: `y' g <= 0` for every present column, up to rounding, and a power `y' h` that is
+    /// the infeasibility left, by another route (if they differ, the values are worn), and is above what would be left of a
+    /// structure that stands: the imbalance that forces may leave, what the directions' rounding makes of the forces, and the
+    /// work of the largest of them where a contact closes by rounding.
+    pub(super) fn certifies(&self) -> bool {
+        let (largest, power) = (self.y.largest(), self.certificate_power());
+        let infeasibility: f64 = self.suspects.iter().map(|&p| self.x[p as usize].abs()).sum();
+        let enough = power > 0.5 * infeasibility && power > 2.0 * OF_FORCE * largest;
+        if !enough || self.wide {
+            return false; // if wide, a heavy block's row has only small entries: what they can do is easily overlooked
         }
         let (mut bound, mut closing) = (0.0, 0.0_f64);
         for (row, y) in self.y.iter() {
@@ -43,12 +45,14 @@ impl ConeSolver {
                 bound += OF_LARGEST * self.force[j as usize].max(0.0) * (y * value).abs();
                 if self.missing[j as usize] == 0 {
                     let rate: f64 = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row)).sum();
+                    if rate > 10.0 * RATE * largest {
+                        return false;
+                    }
                     closing = closing.max(rate);
                 }
             }
         }
-        let power = self.certificate_power();
-        power > MARGIN * (bound + closing * self.size) && power > 2.0 * OF_FORCE * self.y.largest()
+        power > MARGIN * (bound + closing * self.size)
     }
 
     /// Decides in double-double arithmetic, from the basis as it is.
@@ -62,17 +66,7 @@ impl ConeSolver {
         let basis = rows.iter().map(|&row| self.basic[row as usize]).collect();
         let free = |&j: &u32| self.missing[j as usize] == 0 && self.position[j as usize] == super::OUT;
         let columns = (0..self.g.len() as u32).filter(free).collect();
-        let decision = Extended {
-            g: &self.g,
-            h: &self.h,
-            own: &self.own,
-            rows: rows.clone(),
-            basis,
-            columns,
-            dependent: Vec::new(),
-            aside: Vec::new(),
-        }
-        .decide();
+        let decision = Extended::new(&self.g, &self.h, &self.own, rows.clone(), basis, columns).decide();
         match decision {
             Some(decision) => self.take_over(&rows, decision),
             None => Membership::NumericalTrouble,
