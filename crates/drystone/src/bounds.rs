@@ -6,8 +6,7 @@
 //! length^2/inertia) below 1e72 1/kg, and products of two of these and sums of a million of them within 1e-150 and 1e150,
 //! so that their squares and inverses are still numbers. What lies outside is refused where it enters, by the name of the block.
 
-use crate::error::SceneError;
-use std::fmt::{self, Display};
+use std::fmt;
 
 /// The values that a quantity may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,28 +95,5 @@ impl Bounds {
     /// Whether a value lies within; not a number does not.
     pub fn hold(self, value: f64) -> bool {
         (self.least..=self.most).contains(&value)
-    }
-
-    /// # Errors
-    /// [`SceneError::NotFinite`], [`SceneError::OutOfBounds`]; `place` names the block and the quantity.
-    pub(crate) fn check(self, place: impl Display, value: f64) -> Result<(), SceneError> {
-        if self.hold(value) {
-            Ok(())
-        } else if value.is_finite() {
-            Err(SceneError::OutOfBounds { place: place.to_string(), value, bounds: self })
-        } else {
-            Err(SceneError::NotFinite { place: place.to_string(), value })
-        }
-    }
-
-    /// The same of what must be above zero.
-    ///
-    /// # Errors
-    /// [`SceneError::NotPositive`] too.
-    pub(crate) fn check_positive(self, place: impl Display, value: f64) -> Result<(), SceneError> {
-        if value <= 0.0 {
-            return Err(SceneError::NotPositive { place: place.to_string(), value });
-        }
-        self.check(place, value)
     }
 }

@@ -3,9 +3,48 @@
 use crate::{
     bounds::{Bounds, MOST_FACETS, Plain},
     geometry::{ShapeFault, SolidFault},
-    mass_properties::InertiaFault,
 };
 use thiserror::Error;
+
+/// What is wrong with a tensor of inertia, and what to do about it.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum InertiaFault {
+    /// Two halves that differ.
+    #[error("the inertia is not symmetric: entry [{i}][{j}] is {upper}, but [{j}][{i}] is {lower}: give both the same")]
+    NotSymmetric {
+        /// Row.
+        i: usize,
+        /// Column.
+        j: usize,
+        /// Of row i and column j, kg m^2.
+        upper: f64,
+        /// Of row j and column i, kg m^2.
+        lower: f64,
+    },
+    /// A moment that is not above zero.
+    #[error("the inertia has the principal moments {a:.6e}, {b:.6e}, {c:.6e} kg m^2: each must be greater than zero")]
+    NotPositive {
+        /// Kg m^2.
+        a: f64,
+        /// Kg m^2.
+        b: f64,
+        /// Kg m^2.
+        c: f64,
+    },
+    /// One moment above the sum of the others.
+    #[error(
+        "the inertia has the principal moments {a:.6e}, {b:.6e}, {c:.6e} kg m^2: of a rigid body none is greater than the \
+         sum of the others; is it about the centre of mass?"
+    )]
+    Triangle {
+        /// Kg m^2.
+        a: f64,
+        /// Kg m^2.
+        b: f64,
+        /// Kg m^2.
+        c: f64,
+    },
+}
 
 /// A scene that cannot be built, read or put into contact.
 #[derive(Debug, Clone, PartialEq, Error)]

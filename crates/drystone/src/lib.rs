@@ -19,6 +19,7 @@
 mod any_scene;
 pub mod bounds;
 pub mod check;
+mod checked;
 pub mod contact;
 mod equilibrium;
 pub mod error;
@@ -40,8 +41,8 @@ pub use any_scene::AnyScene;
 pub use check::{Verdict, check};
 pub use contact::{Contact, ContactId, ContactSet, Feature, find_contacts};
 pub use drystone_lcp::interrupt;
-pub use error::{FileError, SceneError};
-pub use mass_properties::{InertiaFault, MassProperties};
+pub use error::{FileError, InertiaFault, SceneError};
+pub use mass_properties::MassProperties;
 pub use scene::{Body, BodyOptions, Scene, SceneOf};
 pub use scene_in_space::SceneInSpace;
 pub use structure::Structure;

@@ -1,10 +1,9 @@
 //! A block's own mass, centre of mass and inertia, apart from its shape.
 
 use crate::bounds::COORDINATE;
-use crate::error::SceneError;
+use crate::checked::{finite, positive};
+use crate::error::{InertiaFault, SceneError};
 use crate::geometry::{OWN_AXES, Shape, Vector3, principal};
-use crate::scene::{finite, positive};
-use thiserror::Error;
 
 /// Entries (i, j) and (j, i) of a tensor of inertia may differ by this share of the largest entry: the rounding of a tensor
 /// that was turned, with room. Their mean is taken.
@@ -24,46 +23,6 @@ pub struct MassProperties {
     /// About the centre of mass, along the axes of the frame in which the shape is given, kg m^2. In the plane only the last
     /// entry is used.
     pub inertia: Option<[[f64; 3]; 3]>,
-}
-
-/// What is wrong with a tensor of inertia, and what to do about it.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum InertiaFault {
-    /// Two halves that differ.
-    #[error("the inertia is not symmetric: entry [{i}][{j}] is {upper}, but [{j}][{i}] is {lower}: give both the same")]
-    NotSymmetric {
-        /// Row.
-        i: usize,
-        /// Column.
-        j: usize,
-        /// Of row i and column j, kg m^2.
-        upper: f64,
-        /// Of row j and column i, kg m^2.
-        lower: f64,
-    },
-    /// A moment that is not above zero.
-    #[error("the inertia has the principal moments {a:.6e}, {b:.6e}, {c:.6e} kg m^2: each must be greater than zero")]
-    NotPositive {
-        /// Kg m^2.
-        a: f64,
-        /// Kg m^2.
-        b: f64,
-        /// Kg m^2.
-        c: f64,
-    },
-    /// One moment above the sum of the others.
-    #[error(
-        "the inertia has the principal moments {a:.6e}, {b:.6e}, {c:.6e} kg m^2: of a rigid body none is greater than the \
-         sum of the others; is it about the centre of mass?"
-    )]
-    Triangle {
-        /// Kg m^2.
-        a: f64,
-        /// Kg m^2.
-        b: f64,
-        /// Kg m^2.
-        c: f64,
-    },
 }
 
 /// Mass, and principal moments and axes about the centre of mass.

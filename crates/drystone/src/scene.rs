@@ -1,6 +1,7 @@
 //! A scene: gravity, friction and rigid blocks, each checked when it is added.
 
 use crate::bounds::{ANGLE, COORDINATE, FRICTION, GRAVITY, INERTIA, LENGTH, MASS, SLENDERNESS, TOLERANCE};
+use crate::checked::{finite, positive};
 use crate::error::SceneError;
 use crate::geometry::{Polygon, Pose, Shape, Vector3, norm};
 use crate::interrupt::poll;
@@ -326,15 +327,6 @@ pub(crate) fn within_reach<const N: usize>(name: &str, vertices: &[[f64; N]]) ->
         Some(vertex) => coordinates(format_args!("block \"{name}\": vertex {vertex}"), &vertices[vertex]),
         None => Ok(()),
     }
-}
-
-pub(crate) fn finite(place: impl Display, value: f64) -> Result<(), SceneError> {
-    if value.is_finite() { Ok(()) } else { Err(SceneError::NotFinite { place: place.to_string(), value }) }
-}
-
-pub(crate) fn positive(place: impl Display + Copy, value: f64) -> Result<(), SceneError> {
-    finite(place, value)?;
-    if value > 0.0 { Ok(()) } else { Err(SceneError::NotPositive { place: place.to_string(), value }) }
 }
 
 fn check_friction(place: impl Display, value: f64) -> Result<(), SceneError> {

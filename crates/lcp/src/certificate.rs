@@ -5,7 +5,7 @@
 //! 1e-9 proves only that a solution is larger than 1e9 `|q' y|`: a definite M with a least eigenvalue of 1e-9 has such
 //! solutions. So `M' y` must be rounding, and `q' y` clearly more than what passes for zero in a solution.
 
-use crate::{interrupt::apart, matrix::SparseColumns};
+use crate::{interrupt::apart, matrix::SparseColumns, settings::PROGRESS};
 use faer::Mat;
 
 /// Largest `(M' y)_j` that is rounding beyond doubt, as a share of y's length, where the entries of M are at most about 1: that
@@ -14,10 +14,6 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// Largest `(M' y)_j` that may be rounding, as a share of y's largest entry. Between the two a solution comes first, if one is
 /// found: its size is at least the progress by this.
 const RISE: f64 = 1e-12;
-/// Least `-q' y` for y with the sum 1, where the largest entry of q is 1 on the rows that share an entry of M with y. If `M = G' G` and `q = -G' h`, the problem has a solution,
-/// and still `-q' y = h' G y` is as large as the root of `y' M y`: what rounding hides in M, sixteen units in the last place,
-/// hides 6e-8 in q. Below this no ray says anything.
-pub(crate) const PROGRESS: f64 = 1e-7;
 /// Entries of a ray at or below this, relative to the largest, are rounding of the direction that it was computed from: first
 /// the more likely, then the most accurate.
 const SUPPORTS: [f64; 2] = [1e-10, 1e-14];

@@ -1,6 +1,6 @@
 //! Symmetric scaling to a unit diagonal, which makes every tolerance a relative one.
 
-use crate::{certificate::PROGRESS, problem::Problem};
+use crate::{problem::Problem, settings::PROGRESS};
 
 /// `d_i = 1 / sqrt(M_ii)`, and 1 where the diagonal is not positive. With `z = D zs`, `w = D^-1 ws` the problem
 /// becomes `ws = (D M D) zs + D q`.

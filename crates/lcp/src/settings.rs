@@ -35,3 +35,8 @@ impl Settings {
         self.pivot_limit.unwrap_or(50 * n + 1000)
     }
 }
+
+/// Least `-q' y` for y with the sum 1 of a ray that counts, where the largest entry of q is 1 on the rows that share an entry
+/// of M with y. If `M = G' G` and `q = -G' h`, the problem has a solution, and still `-q' y = h' G y` is as large as the root of `y' M y`: what rounding hides in M, sixteen units in the last place,
+/// hides 6e-8 in q. Below this no ray says anything.
+pub(crate) const PROGRESS: f64 = 1e-7;

@@ -14,9 +14,10 @@ use super::{
     approach::{Approach, ApproachOf, Approaching, FirstMet, Meeting, Near},
     borders::at_borders,
     id::{SolidFeature, SolidPart},
+    placed::{Placed, TouchPoint},
     separation::{Between, Separation, along_edges, along_faces, planes},
     shared_face::{SharedCorner, facing_corners},
-    solids::{Placed, TouchPoint, at_edges},
+    solids::at_edges,
 };
 use crate::{
     geometry::{Polyhedron, Solid, Vector3},

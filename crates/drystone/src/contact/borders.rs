@@ -2,9 +2,9 @@
 
 use super::{
     id::{SolidFeature, SolidPart},
+    placed::{Placed, TouchPoint},
     rounding::{Local, Parting},
     separation::direction,
-    solids::{Placed, TouchPoint},
     touch::Border,
 };
 use crate::geometry::{Edge, Polyhedron, Vector3};

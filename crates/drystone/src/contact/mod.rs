@@ -18,6 +18,7 @@ mod broad_phase;
 mod covered;
 mod id;
 mod narrow_phase;
+mod placed;
 mod rounding;
 mod separation;
 mod shared_face;

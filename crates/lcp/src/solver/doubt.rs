@@ -79,7 +79,7 @@ pub(super) struct Doubtful {
 }
 
 /// What remains violated beside q in a z far out that counts when there is no other answer: no certificate speaks against it
-/// (`certificate::PROGRESS`, ten times).
+/// (`settings::PROGRESS`, ten times).
 const LITTLE: f64 = 1e-6;
 /// Rows up to which dense matrices are worth their n^3 operations.
 const LARGEST_DENSE: usize = 600;

@@ -6,10 +6,10 @@ use super::{
     largest, take,
 };
 use crate::{
-    certificate::PROGRESS,
     error::LcpError,
     interrupt::poll,
     ratio::{Blocker, Candidate, TieRule, ratio_test},
+    settings::PROGRESS,
 };
 
 impl Solver {
