@@ -118,13 +118,6 @@ impl Structure {
         }
     }
 
-    /// Puts up and takes away what makes these the blocks that are there.
-    pub fn set(&mut self, blocks: &BlockSet) {
-        for block in 0..self.assembly.blocks() {
-            if blocks.contains(block) { self.add(block) } else { self.remove(block) }
-        }
-    }
-
     /// Tells the solver what has come and gone: the new blocks from the supports upward.
     fn put_up(&mut self) {
         let Self { assembly, rows, solver, history, .. } = self;

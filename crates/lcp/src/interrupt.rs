@@ -124,12 +124,17 @@ impl Interrupt {
     pub fn run<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
         let mut both = Self::current();
         both.asked.extend(self.asked.iter().cloned());
-        both.instead(work)
+        both.alone(work)
     }
 
     /// The same, where whoever could stop the caller is not asked.
     pub fn instead<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
-        let _entered = Entered::instead(self.clone());
+        self.clone().alone(work)
+    }
+
+    /// [`Self::instead`] without a copy.
+    fn alone<T>(self, work: impl FnOnce() -> T) -> Option<T> {
+        let _entered = Entered::instead(self);
         match catch_unwind(AssertUnwindSafe(work)) {
             Ok(done) => Some(done),
             Err(cause) if cause.is::<Stopped>() => None,

@@ -59,9 +59,11 @@ impl Structure {
         let mut guard = self.core.write()?;
         let core = &mut *guard;
         let start = Instant::now();
-        let (before, blocks) = (core.counts().pivots, core.blocks().clone());
-        change(core, removed, added);
-        let stands = interruptible(py, || core.stands()).inspect_err(|_| core.set(&blocks))?;
+        let before = core.counts().pivots;
+        let (removed, added) = change(core, removed, added);
+        let stands = interruptible(py, || core.stands()).inspect_err(|_| {
+            change(core, added, removed);
+        })?;
         if stands.is_none() && !core.is_borderline() {
             return Err(no_answer(core.blocks().len()));
         }
@@ -100,7 +102,11 @@ impl Structure {
     }
 }
 
-fn change(core: &mut Core, removed: Vec<usize>, added: Vec<usize>) {
-    removed.into_iter().for_each(|block| core.remove(block));
-    added.into_iter().for_each(|block| core.add(block));
+/// Takes blocks off and puts blocks on; hands back those that were there, and those that were not.
+fn change(core: &mut Core, mut removed: Vec<usize>, mut added: Vec<usize>) -> (Vec<usize>, Vec<usize>) {
+    removed.retain(|&block| core.blocks().contains(block));
+    removed.iter().for_each(|&block| core.remove(block));
+    added.retain(|&block| !core.blocks().contains(block));
+    added.iter().for_each(|&block| core.add(block));
+    (removed, added)
 }

@@ -26,7 +26,8 @@ pub struct Signals {
 
 #[derive(Debug)]
 struct State {
-    last: Mutex<Instant>,
+    /// Of the last look; of the first question before there was one, so that work too short to ask reads no clock.
+    last: Mutex<Option<Instant>>,
     /// A handler may itself begin work that looks.
     looking: AtomicBool,
     stopped: AtomicBool,
@@ -36,7 +37,7 @@ struct State {
 impl Signals {
     pub fn new() -> Self {
         let (looking, stopped) = (AtomicBool::new(false), AtomicBool::new(false));
-        let state = State { last: Mutex::new(Instant::now()), looking, stopped, error: Mutex::new(None) };
+        let state = State { last: Mutex::new(None), looking, stopped, error: Mutex::new(None) };
         Self { state: Arc::new(state) }
     }
 
@@ -46,10 +47,10 @@ impl Signals {
         if stopped.load(Relaxed) {
             return true;
         }
-        let due = |last: &mut Instant| {
-            let due = last.elapsed() >= period;
-            if due {
-                *last = Instant::now();
+        let due = |last: &mut Option<Instant>| {
+            let due = last.is_some_and(|last| last.elapsed() >= period);
+            if due || last.is_none() {
+                *last = Some(Instant::now());
             }
             due
         };
