@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ from typing import Any
 import pytest
 
 import drystone as ds
+from at_work import MANY_TIMES_ENOUGH, at_work
 from conftest import Ran, orderless
 
 Cli = Callable[..., Ran]
@@ -221,20 +221,11 @@ def test_help_answers_at_once() -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 @pytest.mark.parametrize("test", ["lcp", "lp"])
-def test_an_interrupt_hands_back_the_best_so_far(test: str) -> None:
-    command = [sys.executable, "-c", "from drystone.cli import main; main()"]
-    process = subprocess.Popen(
-        [*command, "plan", "column:2000", "--test", test, "--no-shortcuts", "--json"],
-        # A shell may start its background jobs with interrupts ignored.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    time.sleep(2.0)
-    assert process.poll() is None
+def test_an_interrupt_hands_back_the_best_so_far(test: str, tmp_path: Path) -> None:
+    endless = ("plan", "column:2000", "--test", test, "--no-shortcuts", "--json")
+    process = at_work(tmp_path / "flag", "PlanProgress", *endless)
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=MANY_TIMES_ENOUGH)
     answer: dict[str, Any] = json.loads(out)
     assert (process.returncode, answer["status"], err) == (1, "interrupted", "")
     assert answer["tests"] > 0

@@ -5,9 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
-import sys
-import time
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
@@ -16,6 +13,7 @@ import numpy as np
 import pytest
 
 import drystone as ds
+from at_work import MANY_TIMES_ENOUGH, at_work
 from conftest import Ran
 
 Cli = Callable[..., Ran]
@@ -284,16 +282,10 @@ def test_the_command_line_refuses(cli: Cli, tmp_path: Path) -> None:
 @pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
 def test_ctrl_c_keeps_what_is_done(tmp_path: Path) -> None:
     path = tmp_path / "run.npz"
-    command = [
-        sys.executable,
-        "-c",
-        "from drystone.cli import main; main()",
-        *("simulate", "wall84", "--reuse", "none", "--steps", "100000", "-o", str(path)),
-    ]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    time.sleep(3)
+    endless = ("simulate", "wall84", "--reuse", "none", "--steps", "100000", "-o", str(path))
+    process = at_work(tmp_path / "flag", "RunProgress", *endless)
     process.send_signal(signal.SIGINT)
-    out, _ = process.communicate(timeout=60)
+    out, _ = process.communicate(timeout=MANY_TIMES_ENOUGH)
     assert process.returncode == 130
     assert out.startswith("Interrupted")
     assert 0 < ds.Run.load(path).steps < 100_000
