@@ -274,7 +274,7 @@ def test_one_run_at_a_time_has_the_folder(tmp_path: Path) -> None:
 
 
 SLOW = {"shortcuts": False, "node_limit": 10_000}
-"""With these settings `slow_scenes` take some hundredths of a second each, and seconds without a limit."""
+"""Settings under which `slow_scenes` take hundredths of a second each; without a limit, seconds."""
 
 
 def slow_scenes(number: int) -> dict[str, ds.Scene]:
