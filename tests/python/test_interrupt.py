@@ -146,6 +146,26 @@ def test_a_structure_has_the_blocks_that_it_had() -> None:
     assert structure.stands() == ds.check(scene, blocks=names[:1]).stable
 
 
+def test_the_step_of_one_block_that_proves_long_lets_others_in() -> None:
+    scene = ds.scenes.arch(1201, 0.2, 0.7)
+    names = [body.name for body in scene.bodies if not body.fixed]
+    keystone = names[len(names) // 2]
+    structure = ds.Structure(scene, blocks=names)
+    assert structure.stands()
+    structure.remove(keystone)
+    assert not structure.stands()
+    structure.add(keystone)
+    seen: list[float] = []
+    timer = threading.Timer(0.05, lambda: seen.append(time.monotonic()))
+    timer.start()
+    interrupted(structure.stands)
+    timer.join()
+    ended = time.monotonic()
+    assert seen
+    assert seen[0] < ended - 0.05, "another thread waited until the step was over"
+    assert structure.blocks == tuple(names)
+
+
 def test_a_step_leaves_the_world_as_it_was_before_it() -> None:
     scene = leaning(30, 30)
     world, other = ds.World(scene), ds.World(scene)

@@ -118,17 +118,23 @@ impl Structure {
         }
     }
 
+    /// Blocks that came and went since the last answer.
+    pub fn pending(&self) -> usize {
+        self.new.len() + self.gone.len()
+    }
+
     /// Tells the solver what has come and gone: the new blocks from the supports upward.
     fn put_up(&mut self) {
         let Self { assembly, rows, solver, history, .. } = self;
         let mut gone = std::mem::take(&mut self.gone);
         if !gone.is_empty() {
             history.go_back(&mut gone, &self.blocks, solver);
-            gone.iter().for_each(|&block| solver.remove_rows(rows.of(block)));
+            gone.drain(..).for_each(|block| solver.remove_rows(rows.of(block)));
         }
         let mut new = std::mem::take(&mut self.new);
         new.sort_unstable_by_key(|&block| self.height[block]);
-        PuttingUp { assembly, rows, solver, history }.put_up(new, &self.blocks);
+        PuttingUp { assembly, rows, solver, history }.put_up(&mut new, &self.blocks);
+        (self.new, self.gone) = (new, gone); // empty, with their room
     }
 
     /// Whether an equilibrium within the friction cones exists; None if the solver found no answer, or that it is

@@ -20,10 +20,10 @@ use std::{
 
 type Asked = Arc<dyn Fn() -> bool + Send + Sync>;
 
-/// Who is asked whether to stop. Clones ask the same.
+/// Who is asked whether to stop; None if nobody. Clones ask the same.
 #[derive(Clone, Default)]
 pub struct Interrupt {
-    asked: Vec<Asked>,
+    asked: Option<Asked>,
 }
 
 /// Operations between two questions: about a millisecond of floating-point work, so that a question, with a look at the
@@ -32,7 +32,7 @@ const WORTH_ASKING: usize = 1 << 20;
 
 thread_local! {
     static LEFT: Cell<usize> = const { Cell::new(WORTH_ASKING) };
-    static CURRENT: RefCell<Interrupt> = const { RefCell::new(Interrupt { asked: Vec::new() }) };
+    static CURRENT: RefCell<Interrupt> = const { RefCell::new(Interrupt { asked: None }) };
 }
 
 /// What unwinds.
@@ -48,6 +48,32 @@ pub fn poll(operations: usize) {
             poll_now();
         }
     });
+}
+
+/// Counts the operations of an object that does little in a call and is called often, and [`poll`]s once there are many: to
+/// look at the thread's own count for each walk of a few steps would take as long as the walk.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Tally {
+    operations: usize,
+}
+
+/// Operations that a [`Tally`] keeps back: some hundredths of a millisecond.
+const KEPT_BACK: usize = 1 << 15;
+
+impl Tally {
+    /// [`poll`], now or later.
+    #[inline]
+    pub fn count(&mut self, operations: usize) {
+        self.operations += operations;
+        if self.operations >= KEPT_BACK {
+            self.pass_on();
+        }
+    }
+
+    #[cold]
+    fn pass_on(&mut self) {
+        poll(std::mem::take(&mut self.operations));
+    }
 }
 
 /// [`poll`] without delay: after a step whose length in operations nobody knows.
@@ -66,8 +92,7 @@ pub fn or_else<S: ?Sized, T>(object: &mut S, work: impl FnOnce(&mut S) -> T, men
         Ok(done) => done,
         Err(cause) => {
             // To mend is never stopped itself.
-            let _uninterrupted = Entered::instead(Interrupt::default());
-            mend(object);
+            Interrupt::default().instead(|| mend(object));
             resume_unwind(cause)
         }
     }
@@ -81,7 +106,7 @@ const PERIOD: Duration = Duration::from_millis(10);
 /// Does work that asks nobody, such as a library's: on a thread of its own if it takes so many operations that they are long and
 /// someone may stop them. If they are stopped, the thread comes to its end alone.
 pub fn apart<T: Send + 'static>(operations: usize, work: impl FnOnce() -> T + Send + 'static) -> T {
-    if operations < LONG || Interrupt::current().asked.is_empty() {
+    if operations < LONG || Interrupt::current().asked.is_none() {
         return work();
     }
     let (tell, told) = mpsc::channel();
@@ -107,7 +132,7 @@ pub fn apart<T: Send + 'static>(operations: usize, work: impl FnOnce() -> T + Se
 impl Interrupt {
     /// Asked from time to time, on whatever thread works; the answer yes must be followed by no other.
     pub fn new(stops: impl Fn() -> bool + Send + Sync + 'static) -> Self {
-        Self { asked: vec![Arc::new(stops)] }
+        Self { asked: Some(Arc::new(stops)) }
     }
 
     /// Stops at a time.
@@ -122,58 +147,64 @@ impl Interrupt {
 
     /// Does some work that this, and whoever could stop the caller, may stop. None if it was stopped.
     pub fn run<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
-        let mut both = Self::current();
-        both.asked.extend(self.asked.iter().cloned());
-        both.alone(work)
+        self.clone().lent(work).0
     }
 
-    /// The same, where whoever could stop the caller is not asked.
+    /// [`Self::run`], for one that is run again and again: it is handed back.
+    pub fn lent<T>(self, work: impl FnOnce() -> T) -> (Option<T>, Self) {
+        let (before, kept) = CURRENT.with_borrow_mut(|current| {
+            let (asked, kept) = match current.asked {
+                Some(_) => (current.and(&self), Some(self)),
+                None => (self, None),
+            };
+            (std::mem::replace(current, asked), kept)
+        });
+        let (done, asked) = until_stopped(before, work);
+        (done, kept.unwrap_or(asked))
+    }
+
+    /// [`Self::run`], where whoever could stop the caller is not asked.
     pub fn instead<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
-        self.clone().alone(work)
+        until_stopped(CURRENT.replace(self.clone()), work).0
     }
 
-    /// [`Self::instead`] without a copy.
-    fn alone<T>(self, work: impl FnOnce() -> T) -> Option<T> {
-        let _entered = Entered::instead(self);
-        match catch_unwind(AssertUnwindSafe(work)) {
-            Ok(done) => Some(done),
-            Err(cause) if cause.is::<Stopped>() => None,
-            Err(panic) => resume_unwind(panic),
+    /// Asks both.
+    fn and(&self, other: &Self) -> Self {
+        match (&self.asked, &other.asked) {
+            (Some(one), Some(other)) => {
+                let (one, other) = (Arc::clone(one), Arc::clone(other));
+                Self::new(move || one() || other())
+            }
+            (one, other) => Self { asked: one.as_ref().or(other.as_ref()).cloned() },
         }
     }
 
     /// Whether to stop now.
     pub fn stops(&self) -> bool {
-        self.asked.iter().any(|asked| asked())
+        self.asked.as_ref().is_some_and(|asked| asked())
     }
 }
 
 impl fmt::Debug for Interrupt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Interrupt").field("asked", &self.asked.len()).finish()
+        f.debug_struct("Interrupt").field("asked", &self.asked.is_some()).finish()
     }
 }
 
-/// Puts back who was asked before.
-struct Entered {
-    before: Interrupt,
-}
-
-impl Entered {
-    fn instead(interrupt: Interrupt) -> Self {
-        Self { before: CURRENT.replace(interrupt) }
-    }
-}
-
-impl Drop for Entered {
-    fn drop(&mut self) {
-        CURRENT.set(std::mem::take(&mut self.before));
+/// Does work until it is stopped, puts back who was asked `before`, and hands out who was asked on the way.
+fn until_stopped<T>(before: Interrupt, work: impl FnOnce() -> T) -> (Option<T>, Interrupt) {
+    let ended = catch_unwind(AssertUnwindSafe(work));
+    let asked = CURRENT.replace(before);
+    match ended {
+        Ok(done) => (Some(done), asked),
+        Err(cause) if cause.is::<Stopped>() => (None, asked),
+        Err(panic) => resume_unwind(panic),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Interrupt, LONG, WORTH_ASKING, apart, or_else, poll, poll_now};
+    use super::{Interrupt, KEPT_BACK, LONG, Tally, WORTH_ASKING, apart, or_else, poll, poll_now};
     use std::{
         cell::Cell,
         panic::{AssertUnwindSafe, catch_unwind},
@@ -204,6 +235,34 @@ mod tests {
         assert_eq!((ended, asked.load(Relaxed)), (None::<()>, 4));
         assert!((16..=20).contains(&done.get()), "{done:?} quarters between four questions");
         assert_eq!(Interrupt::default().run(|| 7), Some(7));
+    }
+
+    #[test]
+    fn a_tally_asks_as_often_as_the_operations_themselves() {
+        let (interrupt, asked) = after(3);
+        let (done, step) = (Cell::new(0), KEPT_BACK / 3);
+        let ended = interrupt.run(|| {
+            let mut tally = Tally::default();
+            loop {
+                done.set(done.get() + 1);
+                tally.count(step);
+            }
+        });
+        assert_eq!((ended, asked.load(Relaxed)), (None::<()>, 4));
+        let share = (done.get() * step) as f64 / WORTH_ASKING as f64;
+        assert!((3.0..=4.5).contains(&share), "{share} times the operations between two questions");
+    }
+
+    #[test]
+    fn what_is_lent_comes_back_and_asks_the_same() {
+        let (outer, outside) = after(usize::MAX);
+        let (inner, inside) = after(1);
+        let (done, inner) = inner.lent(|| poll_now());
+        assert_eq!(done, Some(()));
+        let (done, inner) = outer.run(|| inner.lent(|| poll_now())).expect("nobody stops it outside");
+        assert_eq!((done, inside.load(Relaxed), outside.load(Relaxed)), (None, 2, 1));
+        assert!(inner.stops());
+        assert!(!Interrupt::current().stops());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::{
     guard::Guarded,
     scene::Scene,
     verdict::Verdict,
-    watch::interruptible,
+    watch::{briefly, interruptible},
 };
 use drystone::Structure as Core;
 use pyo3::{prelude::*, types::PyBytes};
@@ -61,7 +61,9 @@ impl Structure {
         let start = Instant::now();
         let before = core.counts().pivots;
         let (removed, added) = change(core, removed, added);
-        let stands = interruptible(py, || core.stands()).inspect_err(|_| {
+        let stands =
+            if core.pending() <= FEW { briefly(py, || core.stands()) } else { interruptible(py, || core.stands()) };
+        let stands = stands.inspect_err(|_| {
             change(core, added, removed);
         })?;
         if stands.is_none() && !core.is_borderline() {
@@ -101,6 +103,9 @@ impl Structure {
         Ok(Self::of(core, 0.0))
     }
 }
+
+/// Blocks that came and went of which an answer is mostly short.
+const FEW: usize = 8;
 
 /// Takes blocks off and puts blocks on; hands back those that were there, and those that were not.
 fn change(core: &mut Core, mut removed: Vec<usize>, mut added: Vec<usize>) -> (Vec<usize>, Vec<usize>) {

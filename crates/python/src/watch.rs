@@ -6,10 +6,12 @@ use drystone::{
 };
 use pyo3::{exceptions::PyKeyboardInterrupt, prelude::*};
 use std::{
+    cell::Cell,
     sync::{
         Arc, Mutex, PoisonError,
         atomic::{AtomicBool, Ordering::Relaxed},
     },
+    thread,
     time::{Duration, Instant},
 };
 
@@ -69,6 +71,11 @@ impl Signals {
         !self.stop(PERIOD_BETWEEN)
     }
 
+    /// Whether a yes has been given, which is never taken back.
+    fn has_stopped(&self) -> bool {
+        self.state.stopped.load(Relaxed)
+    }
+
     /// Does work without Python's lock. None if a signal stopped it.
     pub fn run<T: Send>(&self, py: Python<'_>, work: impl FnOnce() -> T + Send) -> Option<T> {
         let asked = self.clone();
@@ -96,6 +103,45 @@ pub fn in_python<T>(work: impl FnOnce(Python<'_>) -> T) -> T {
 pub fn interruptible<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let signals = Signals::new();
     signals.run(py, work).ok_or_else(|| signals.error())
+}
+
+thread_local! {
+    /// What [`briefly`] asks, where it is not in use: to make it anew takes a fifth of the time of a short step.
+    static IDLE: Cell<Option<Holding>> = const { Cell::new(None) };
+}
+
+/// Signals of work that keeps Python's lock, and who asks them.
+struct Holding {
+    signals: Signals,
+    interrupt: Interrupt,
+}
+
+impl Holding {
+    fn new() -> Self {
+        let signals = Signals::new();
+        let (asked, owner) = (signals.clone(), thread::current().id());
+        let stop = move || {
+            if thread::current().id() == owner {
+                in_python(|py| py.detach(|| ())); // lets other threads have the lock, if they wait for it
+                asked.stop(PERIOD)
+            } else {
+                asked.has_stopped() // to wait for the lock here could be to wait for ever
+            }
+        };
+        Self { signals, interrupt: Interrupt::new(stop) }
+    }
+}
+
+/// [`interruptible`] for work that is mostly too short to let go of Python's lock, which takes as long as a short step. If it
+/// turns out to be long, other threads have the lock now and then: at each question, as between two lines of Python.
+pub fn briefly<T>(_py: Python<'_>, work: impl FnOnce() -> T) -> PyResult<T> {
+    let Holding { signals, interrupt } = IDLE.take().unwrap_or_else(Holding::new);
+    let (done, interrupt) = interrupt.lent(work);
+    let done = done.ok_or_else(|| signals.error());
+    if !signals.has_stopped() {
+        IDLE.set(Some(Holding { signals, interrupt }));
+    }
+    done
 }
 
 /// Looks for signals now and then while many objects are made.

@@ -42,9 +42,14 @@ impl History {
             && (solver.remembers(state) || solver.pivots_since(state) >= PIVOTS_WORTH_A_FACTOR)
         {
             solver.roll_back(state);
-            let mut settled = present.clone();
-            self.states.drain(stay..).for_each(|(block, _)| settled.insert(block));
-            gone.retain(|&block| !settled.contains(block));
+            let undone = self.states.drain(stay..); // all of them are gone
+            if undone.len() == gone.len() {
+                gone.clear();
+            } else {
+                let mut settled = present.clone();
+                undone.for_each(|(block, _)| settled.insert(block));
+                gone.retain(|&block| !settled.contains(block));
+            }
         }
         if !gone.is_empty() {
             self.states.clear();

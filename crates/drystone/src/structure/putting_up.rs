@@ -24,19 +24,21 @@ pub(super) struct PuttingUp<'a> {
 }
 
 impl PuttingUp<'_> {
-    /// Puts up all of these blocks; `with` holds them and what is there. The solver has not answered then.
-    pub fn put_up(mut self, blocks: Vec<usize>, with: &BlockSet) {
-        let rest = if blocks.len() > 1 { self.put_up_what_stands(blocks, with) } else { blocks };
+    /// Puts up all of these blocks, and empties the list; `with` holds them and what is there. The solver has not answered then.
+    pub fn put_up(mut self, blocks: &mut Vec<usize>, with: &BlockSet) {
+        if blocks.len() > 1 {
+            self.put_up_what_stands(blocks, with);
+        }
         let Self { rows, solver, history, .. } = self;
-        put_up(solver, rows, rest, |solver, block| {
+        put_up(solver, rows, blocks.drain(..), |solver, block| {
             history.push(block, solver);
             true
         });
     }
 
     /// As long as there is one among these blocks that stands on what is there, the first such one comes. The others are
-    /// handed back, at least one of them: the last block is not asked about.
-    fn put_up_what_stands(&mut self, mut waiting: Vec<usize>, with: &BlockSet) -> Vec<usize> {
+    /// left, at least one of them: the last block is not asked about.
+    fn put_up_what_stands(&mut self, waiting: &mut Vec<usize>, with: &BlockSet) {
         let mut there = with.clone();
         waiting.iter().for_each(|&block| there.remove(block));
         let (mut place, mut fell) = (0, Vec::new());
@@ -56,7 +58,6 @@ impl PuttingUp<'_> {
                 fell.push(block);
             }
         }
-        waiting
     }
 
     fn stands_with(&mut self, block: usize) -> bool {

@@ -13,6 +13,7 @@ mod solving;
 mod undoing;
 
 use super::{due::Due, lists::Lists, sparse_vector::SparseVector};
+use crate::interrupt::Tally;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -89,6 +90,11 @@ pub(super) struct BasisFactor {
     due: Due,
     /// By stage; zero between solves.
     work: Vec<f64>,
+    #[serde(skip)]
+    tally: Tally,
+    /// Numbers read that have been counted there.
+    #[serde(skip)]
+    counted: usize,
 }
 
 /// How far a value is passed on in a walk through `U`.
@@ -114,6 +120,9 @@ pub(super) struct Replacement {
 /// A replacement whose pivot is at or below this (columns have a largest entry of one) would make the basis singular.
 const SINGULAR: f64 = 1e-11;
 
+/// Operations of the walks of a pivot beside the numbers that they read.
+const WALKS: usize = 128;
+
 impl BasisFactor {
     pub fn identity(n: usize) -> Self {
         // Room for a column in every position.
@@ -135,6 +144,8 @@ impl BasisFactor {
             read_below: 0,
             due: Due::default(),
             work: vec![0.0; n],
+            tally: Tally::default(),
+            counted: 0,
         }
     }
 
@@ -152,6 +163,7 @@ impl BasisFactor {
     ///
     /// None (and no change) if the basis would become singular.
     pub fn replace(&mut self, position: u32, spike: &SparseVector) -> Option<Replacement> {
+        self.count_walks();
         let p = position as usize;
         let old = self.stage[p];
         let first = self.terms.len();
@@ -224,8 +236,9 @@ impl BasisFactor {
 
     /// Back to the identity; nothing before can be undone.
     pub fn reset(&mut self) {
-        let (group, read, read_below) = (std::mem::take(&mut self.group), self.read, self.read_below);
-        *self = Self { group, read, read_below, ..Self::identity(self.stage.len()) };
+        let Self { read, read_below, tally, counted, .. } = *self;
+        let group = std::mem::take(&mut self.group);
+        *self = Self { group, read, read_below, tally, counted, ..Self::identity(self.stage.len()) };
     }
 
     /// Numbers read by triangular solves since the factor was made.
@@ -236,6 +249,12 @@ impl BasisFactor {
     /// Numbers read in all since the factor was made.
     pub fn effort(&self) -> usize {
         self.read + self.read_below
+    }
+
+    /// Counts what walks have read since this was last done ([`crate::interrupt`]).
+    pub fn count_walks(&mut self) {
+        let effort = self.effort();
+        self.tally.count(WALKS + effort - std::mem::replace(&mut self.counted, effort));
     }
 
     /// Stored numbers without the diagonal of `U`.

@@ -26,7 +26,7 @@ use super::{
     pricing::Pricing,
     sparse_vector::SparseVector,
 };
-use crate::{counts::Counts, error::LcpError};
+use crate::{counts::Counts, error::LcpError, interrupt::Tally};
 use serde::{Deserialize, Serialize};
 
 /// A basic value that limits the step.
@@ -128,6 +128,11 @@ pub struct ConeSolver {
     shaky: bool,
     /// Entries of the factor above which it is built again in a sparser order.
     most_entries: usize,
+    /// Room for [`Self::roll_back`].
+    #[serde(skip)]
+    rolled_back: Vec<u32>,
+    #[serde(skip)]
+    tally: Tally,
 }
 
 const OUT: u32 = u32::MAX;
@@ -230,6 +235,8 @@ impl ConeSolver {
             counts: Counts::default(),
             shaky: false,
             most_entries: 0,
+            rolled_back: Vec::new(),
+            tally: Tally::default(),
             g,
         })
     }

@@ -1,7 +1,7 @@
 //! Which column enters: the one that lowers the infeasibility fastest.
 
 use super::{columns::Columns, sparse_vector::SparseVector};
-use crate::interrupt::poll;
+use crate::interrupt::Tally;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -11,6 +11,8 @@ pub(super) struct Pricing {
     seen: Vec<bool>,
     touched: Vec<u32>,
     preferred: Range<u32>,
+    #[serde(skip)]
+    tally: Tally,
 }
 
 /// Rates within this share of the best count as equal, so that rounding does not decide between symmetric columns.
@@ -25,7 +27,7 @@ const COLUMN: usize = 8;
 
 impl Pricing {
     pub fn new(columns: usize) -> Self {
-        Self { seen: vec![false; columns], touched: Vec::new(), preferred: 0..0 }
+        Self { seen: vec![false; columns], touched: Vec::new(), preferred: 0..0, tally: Tally::default() }
     }
 
     /// Makes room for so many columns.
@@ -52,13 +54,13 @@ impl Pricing {
         let mut best = Best { floor, least_index, found: None };
         let preferred = if least_index { 0..0 } else { self.preferred.clone() };
         if DENSE * y.index().len() > g.rows() {
-            poll(COLUMN * g.len());
+            self.tally.count(COLUMN * g.len());
             let others = (0..preferred.start).chain(preferred.end..g.len() as u32);
             best.of_all(preferred.filter(|&j| allowed(j)), rate);
             best.of_all_if_none(others.filter(|&j| allowed(j)), rate);
         } else {
             self.touch(g, y, allowed);
-            poll(COLUMN * self.touched.len());
+            self.tally.count(COLUMN * self.touched.len());
             best.of_all(self.touched.iter().copied().filter(|j| preferred.contains(j)), rate);
             best.of_all_if_none(self.touched.iter().copied().filter(|j| !preferred.contains(j)), rate);
             self.touched.clear();

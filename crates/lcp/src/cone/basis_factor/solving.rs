@@ -1,17 +1,13 @@
 //! Solves with the factor that visit only what can be nonzero.
 
 use super::{BasisFactor, Reach, Stage};
-use crate::{cone::sparse_vector::SparseVector, interrupt::poll};
-
-/// Operations of a walk beside the numbers it reads.
-const WALK: usize = 32;
+use crate::cone::sparse_vector::SparseVector;
 
 impl BasisFactor {
     /// `L^-1 a` in place: the spike of a column.
     pub fn apply_operations(&mut self, x: &mut SparseVector) {
         let Self { operations, terms, readers, due, read_below, .. } = self;
         due.reset(operations.len());
-        let before = *read_below;
         x.index().iter().for_each(|&i| due.insert_all(readers.of(i)));
         let mut due = due.upward();
         while let Some(id) = due.take() {
@@ -25,7 +21,6 @@ impl BasisFactor {
                 x.add(operation.target, -sum);
             }
         }
-        poll(WALK + *read_below - before);
     }
 
     /// `U^-1 spike` as (position, value), the later stages first; nothing that is zero.
@@ -61,7 +56,6 @@ impl BasisFactor {
     fn walk(&mut self, spike: &SparseVector, mut visit: impl FnMut(u32, u32, f64) -> Reach) {
         self.seed(spike);
         let Self { stages, above, due, work, group, read, .. } = self;
-        let before = *read;
         let mut due = due.downward();
         while let Some(s) = due.take() {
             let stage = &stages[s as usize];
@@ -84,7 +78,6 @@ impl BasisFactor {
                 }
             }
         }
-        poll(WALK + *read - before);
     }
 
     /// The entry of `B^-1 a` at a position that no later column of `U` reaches, straight from the spike.
@@ -100,7 +93,6 @@ impl BasisFactor {
         self.solve_rows(|position, value| y.set(position, value));
         let Self { operations, terms, writers, due, read_below, .. } = self;
         due.reset(operations.len());
-        let before = *read_below;
         y.index().iter().for_each(|&i| due.insert_all(writers.of(i)));
         let mut due = due.downward();
         while let Some(id) = due.take() {
@@ -116,7 +108,6 @@ impl BasisFactor {
                 }
             }
         }
-        poll(WALK + *read_below - before);
     }
 
     /// Takes a right-hand side, by position, into the work vector.
@@ -132,7 +123,6 @@ impl BasisFactor {
     /// `U^-T` of the work vector: the values that are not zero, by position, the earlier stages first.
     pub(super) fn solve_rows(&mut self, mut found: impl FnMut(u32, f64)) {
         let Self { stages, rows, due, work, read, .. } = self;
-        let before = *read;
         let mut due = due.upward();
         while let Some(s) = due.take() {
             let stage = &stages[s as usize];
@@ -146,6 +136,5 @@ impl BasisFactor {
                 }
             }
         }
-        poll(WALK + *read - before);
     }
 }

@@ -119,6 +119,7 @@ impl ConeSolver {
         if self.spike.index().is_empty() {
             return true; // on fixed bodies
         }
+        self.factor.count_walks();
         self.factor.apply_operations(&mut self.spike);
         let Self { factor, spike, basic, bears, .. } = self;
         let mut borne = true;

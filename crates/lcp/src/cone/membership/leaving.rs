@@ -1,7 +1,6 @@
 //! Rows that go: their columns leave the basis, and what they held or loaded feels it.
 
 use super::{Basic, Change, ConeSolver, OUT};
-use crate::interrupt::poll;
 
 impl ConeSolver {
     /// Takes rows out, and with them every column that touches one. The next answer starts from the columns that remain.
@@ -13,14 +12,14 @@ impl ConeSolver {
         for &row in &rows {
             self.note(Change::Gone { row, group: self.factor.group(row) });
             self.take_row(row);
-            poll(self.rows.len());
+            self.tally.count(self.rows.len());
         }
         // A row's own position first: its unit column always fits there if only newer blocks rest on the row.
         let own = rows.iter().copied().filter(|&row| self.column_in(row).is_some());
         let mut positions: Vec<u32> = own.collect();
         let touching = rows.iter().flat_map(|&row| self.g.columns_of(row)).map(|&(j, _)| self.position[j as usize]);
         for position in touching.filter(|&position| position != OUT) {
-            poll(positions.len());
+            self.tally.count(positions.len());
             if !positions.contains(&position) {
                 positions.push(position);
             }

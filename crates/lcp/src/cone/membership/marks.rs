@@ -1,7 +1,6 @@
 //! Going back: the state at a mark, restored from what was changed since.
 
 use super::{Basic, Change, ConeSolver, keeping::BasisSet};
-use crate::interrupt::poll;
 use serde::{Deserialize, Serialize};
 
 /// A point to return to with [`ConeSolver::roll_back`].
@@ -65,13 +64,13 @@ impl ConeSolver {
         assert_eq!(mark.era, self.era, "a mark that has ended");
         let same_positions = mark.rebuilds == self.counts.refactorisations;
         let remembered = self.remembers(mark);
-        let mut gone = Vec::new();
+        let mut gone = std::mem::take(&mut self.rolled_back);
         let mut basis = if same_positions { BasisSet::default() } else { self.basis_set() };
         while self.changes.len() > mark.changes
             && let Some(change) = self.changes.pop()
         {
             self.take_back(change, (!same_positions).then_some(&mut basis), &mut gone);
-            poll(self.rows.len());
+            self.tally.count(self.rows.len());
         }
         if same_positions {
             self.factor.undo_to(mark.factor);
@@ -88,6 +87,8 @@ impl ConeSolver {
         }
         gone.retain(|&row| !self.present[row as usize]); // some had been there before
         self.forget_values(&gone);
+        gone.clear();
+        self.rolled_back = gone;
     }
 
     /// Undoes a change, the last first; rows that had come are noted as gone. A pivot is undone in `basis`, if that is given.

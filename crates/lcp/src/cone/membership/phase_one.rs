@@ -5,7 +5,6 @@ use super::{
     Basic, Blocking, Change, ConeSolver, DISAGREEMENT, GROWTH, Membership, OUT, PIVOT, PROGRESS, RATE, SAFE_PIVOT,
     SLACK, STALL, infeasible,
 };
-use crate::interrupt::poll;
 
 impl ConeSolver {
     /// Drives the infeasibility down until it is gone or cannot fall. None if a pivot was refused.
@@ -13,7 +12,7 @@ impl ConeSolver {
         let (mut stalled, mut best) = (0, f64::INFINITY);
         let mut wear = self.fresh_wear();
         loop {
-            poll(self.suspects.len());
+            self.tally.count(self.suspects.len());
             self.rebuild_if_worn(&mut wear)?;
             let x = &self.x;
             let (basic, zero) = (&self.basic, self.zero);
