@@ -257,9 +257,9 @@ mod tests {
     fn what_is_lent_comes_back_and_asks_the_same() {
         let (outer, outside) = after(usize::MAX);
         let (inner, inside) = after(1);
-        let (done, inner) = inner.lent(|| poll_now());
+        let (done, inner) = inner.lent(poll_now);
         assert_eq!(done, Some(()));
-        let (done, inner) = outer.run(|| inner.lent(|| poll_now())).expect("nobody stops it outside");
+        let (done, inner) = outer.run(|| inner.lent(poll_now)).expect("nobody stops it outside");
         assert_eq!((done, inside.load(Relaxed), outside.load(Relaxed)), (None, 2, 1));
         assert!(inner.stops());
         assert!(!Interrupt::current().stops());
