@@ -27,6 +27,28 @@ FLAGS = [
     "--no-first-run",
 ]
 READY = "#viewer[aria-busy=false]"
+COUNT_FRAMES = """
+const ask = window.requestAnimationFrame.bind(window);
+window.nextFrame = ask;
+window.framesAsked = 0;
+window.requestAnimationFrame = (draw) => {
+    window.framesAsked++;
+    return ask((now) => {
+        window.framesAsked--;
+        draw(now);
+    });
+};
+"""
+"""The page asks for frames as long as something moves."""
+FRAMES = """(rest) => new Promise((done) => {
+    let calm = 0;
+    const look = () => {
+        calm = rest && window.framesAsked ? 0 : calm + 1;
+        if (calm > 2) done();
+        else window.nextFrame(look);
+    };
+    look();
+})"""
 Opener = Callable[..., Tab]
 
 
@@ -67,6 +89,7 @@ def opened(browser: Browser, tmp_path: Path) -> Iterator[Opener]:
             offline=True,
             **options,  # type: ignore[arg-type]
         )
+        context.add_init_script(COUNT_FRAMES)
         contexts.append(context)
         tab = context.new_page()
         tab.on("console", lambda message: complaints.append(message.text))
@@ -98,11 +121,16 @@ def says(tab: Tab, identifier: str, text: str) -> None:
     expect(tab.locator(f"#{identifier}")).to_have_text(text)
 
 
+def settle(tab: Tab) -> None:
+    """Wait until the page shows what was just asked for, and fades are over."""
+    tab.evaluate(FRAMES, True)
+
+
 def pixels(tab: Tab) -> np.ndarray:
     """(height, width, 3) of the picture, drawn after what was just asked for."""
     from matplotlib.image import imread
 
-    tab.wait_for_timeout(450)  # fades last 300 ms
+    settle(tab)
     shot = io.BytesIO(tab.locator("#scene").screenshot())
     picture: np.ndarray = (255 * imread(shot, format="png")[:, :, :3]).round().astype(int)
     return picture
@@ -117,7 +145,7 @@ def count(picture: np.ndarray, colour: str) -> int:
 def press(tab: Tab, *keys: str) -> None:
     for key in keys:
         tab.keyboard.press(key)
-    tab.wait_for_timeout(50)
+    tab.evaluate(FRAMES, False)  # it may play from now on
 
 
 def hover(tab: Tab, x: float, y: float) -> Locator:
@@ -125,7 +153,7 @@ def hover(tab: Tab, x: float, y: float) -> Locator:
     box = tab.locator("#scene").bounding_box()
     assert box is not None
     tab.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
-    tab.wait_for_timeout(100)
+    settle(tab)
     return tab.locator("#card")
 
 

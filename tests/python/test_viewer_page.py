@@ -9,7 +9,7 @@ from playwright.sync_api import expect
 import drystone as ds
 from conftest import orderless
 from drystone.viewer import FrameForces, Page, run_page
-from tab import LIGHT, READY, Opener, count, find, hover, pixels, press, says
+from tab import LIGHT, READY, Opener, count, find, hover, pixels, press, says, settle
 
 
 @pytest.fixture(scope="module")
@@ -204,7 +204,7 @@ def test_a_click_keeps_the_card(opened: Opener, plan: ds.Plan) -> None:
     tab.mouse.down()
     tab.mouse.up()
     tab.mouse.move(1, 1)
-    tab.wait_for_timeout(100)
+    settle(tab)
     expect(card).to_be_visible()
 
 
@@ -293,6 +293,7 @@ def test_dark_and_light(opened: Opener, plan: ds.Plan) -> None:
 def test_reduced_motion_does_without_fades(opened: Opener, plan: ds.Plan) -> None:
     tab = opened(plan.view(), reduced_motion="reduce")
     tab.click("#forward")
+    says(tab, "place", "Step 1 of 5")
     at_once = tab.locator("#scene").screenshot()
     tab.wait_for_timeout(500)
     assert tab.locator("#scene").screenshot() == at_once

@@ -247,7 +247,6 @@ def test_held_blocks_have_a_colour_of_their_own(opened: Opener) -> None:
     assert reddish(tab) > 500
     expect(tab.locator("#legend")).to_contain_text("held")
     press(tab, "ArrowRight")
-    tab.wait_for_timeout(600)
     red, green, blue = (pixels(tab)[:, :, i] for i in range(3))
     assert int(np.sum((red - green > 40) & (blue - green > 5))) == 0
 
