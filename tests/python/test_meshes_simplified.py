@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import trimesh
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, KDTree
 
 import drystone as ds
 from conftest import Ran
@@ -49,16 +49,18 @@ def distance(mesh: Any, pieces: list[Points], count: int = 1500) -> float:
 def farthest(points: Points, triangles: Points) -> float:
     """The greatest distance of a point from the nearest of all triangles that might be it."""
     middles = triangles.mean(axis=1)
-    radii = np.linalg.norm(triangles - middles[:, None], axis=2).max(axis=1)
+    radius = np.linalg.norm(triangles - middles[:, None], axis=2).max()
+    tree = KDTree(middles)
     greatest = 0.0
-    for point in points:
-        gaps = np.linalg.norm(middles - point, axis=1)
-        # The nearest triangle's middle is no farther than its radius beyond the least bound.
-        may_be = gaps - radii <= (gaps + radii).min()
-        near = trimesh.triangles.closest_point(
-            triangles[may_be], np.broadcast_to(point, (may_be.sum(), 3))
-        )
-        greatest = max(greatest, np.linalg.norm(near - point, axis=1).min())
+    for some in np.array_split(points, len(points) // 100 + 1):
+        # The nearest triangle's middle is no farther than two radii beyond the nearest middle.
+        may_be = tree.query_ball_point(some, tree.query(some)[0] + 2.001 * radius)
+        counts = [len(one) for one in may_be]
+        each = np.repeat(some, counts, axis=0)
+        near = trimesh.triangles.closest_point(triangles[np.concatenate(may_be).astype(int)], each)
+        gaps = np.linalg.norm(near - each, axis=1)
+        first = np.cumsum([0, *counts[:-1]])
+        greatest = max(greatest, np.minimum.reduceat(gaps, first).max())
     return float(greatest)
 
 
