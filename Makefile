@@ -62,7 +62,7 @@ viewer-tests: viewer/node_modules/.ready
 
 python-tests: build
 	@echo "== pytest"
-	@$(BIN)/pytest
+	@$(BIN)/pytest --numprocesses auto --maxprocesses 4 --dist worksteal
 
 lint: style types viewer-lint deny
 	@echo "== cargo clippy"
