@@ -130,3 +130,16 @@ def test_random_structures_are_judged_right() -> None:
     tallies = random_structures.run({2: 75, 3: 25}, 7, None)
     wrong = [example for tally in tallies.values() for example in tally.examples if tally.wrong]
     assert not wrong
+
+
+@pytest.mark.parametrize("method", ["equilibrium", "lcp"])
+def test_forces_given_out_for_thin_shims_hold_each_block(method: str) -> None:
+    """Masses 1e7 apart: forces that the solver balances only with 32 digits are given out so."""
+    from structures import families, proofs
+
+    made = dict(families.families(3))["tower with shims 1e4"]
+    tower = made(np.random.default_rng([0, 3, 11, 39]))
+    verdict = ds.check(families.scene_of(tower, families.Seen()), method=method, cone="inscribed")
+    assert tower.right is True
+    assert verdict.stable
+    assert proofs.proves(verdict) == ""

@@ -4,8 +4,8 @@ use crate::{
     contact::Contact,
     equilibrium::{accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
     error::SceneError,
-    formulate::{Acceleration, Assemble, Assembly, BlockSet, Components, ContactForce},
-    judgement::{CLOSING_AS_SOLVED, Judgement, Motion, judge, moving_blocks, proves_fall},
+    formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, Moving},
+    judgement::{CLOSING_AS_SOLVED, Judgement, judge, moving_blocks, proves_fall},
     scene::SceneOf,
 };
 use drystone_lcp::{
@@ -147,18 +147,17 @@ fn complementarity_while(
         Err(_) => Status::NumericalTrouble,
     };
     let counts = spent + solver.counts();
-    let force = |j: usize| solver.z(j);
-    let motion = assembly.motion(blocks, force);
-    let found = verdict(assembly, blocks, force, &motion, status, counts, solver.residual());
+    let moving = assembly.moving(blocks, |j| solver.z(j));
+    let found = verdict(assembly, blocks, &moving, status, counts, solver.residual());
     let fallen = |found: Verdict, equilibrium: &ConeSolver| {
         let proved = status == Status::Solved
             && !found.falling.is_empty()
-            && proves_fall(assembly, blocks, &motion, force, CLOSING_AS_SOLVED);
+            && proves_fall(assembly, blocks, &moving, CLOSING_AS_SOLVED);
         if proved { Verdict { stable: false, ..found } } else { by_collapse(assembly, found, equilibrium) }
     };
     let judgement = match (fell, status) {
         (Some(equilibrium), _) => return Some(fallen(found, equilibrium)),
-        (None, Status::Solved) => judge(assembly, blocks, &motion, force),
+        (None, Status::Solved) => judge(assembly, blocks, &moving),
         (None, _) => Judgement::by_equilibrium(assembly, blocks),
     };
     Some(match judgement {
@@ -177,10 +176,8 @@ fn complementarity_while(
 
 /// The verdict on what is held up by the forces of an equilibrium solver, for certain or borderline.
 fn held(assembly: &Assembly, blocks: &BlockSet, equilibrium: &ConeSolver, counts: Counts) -> Verdict {
-    let magnitudes: Vec<f64> = (0..assembly.generators().len()).map(|j| assembly.magnitude(equilibrium, j)).collect();
-    let force = |generator: usize| magnitudes[generator];
-    let motion: Motion = blocks.iter().map(|block| (block, assembly.acceleration(block, force))).collect();
-    let held = verdict(assembly, blocks, force, &motion, Status::Solved, counts, equilibrium.residual());
+    let moving = assembly.moving_under(blocks, |j| assembly.magnitude(equilibrium, j));
+    let held = verdict(assembly, blocks, &moving, Status::Solved, counts, equilibrium.residual());
     let doubt = equilibrium.doubt();
     let status = if doubt.is_some() { Status::Borderline } else { Status::Solved };
     Verdict { status, stable: doubt.is_none(), falling: Vec::new(), doubt, ..held }
@@ -208,25 +205,21 @@ fn by_collapse(assembly: &Assembly, found: Verdict, equilibrium: &ConeSolver) ->
 fn verdict(
     assembly: &Assembly,
     blocks: &BlockSet,
-    f: impl Fn(usize) -> f64,
-    motion: &[(usize, Components)],
+    under: &Moving,
     status: Status,
     counts: Counts,
     residual: f64,
 ) -> Verdict {
-    // Each is asked for by both blocks and by the contact.
-    let magnitudes: Vec<f64> = (0..assembly.generators().len()).map(f).collect();
-    let f = |generator: usize| magnitudes[generator];
-    let moving = moving_blocks(assembly, motion, f);
+    let moving = moving_blocks(assembly, under);
     let falling: Vec<usize> = moving.iter().map(|&(block, _)| assembly.body_index(block)).collect();
     Verdict {
         status,
         stable: status == Status::Solved && falling.is_empty(),
         checked: blocks.iter().map(|block| assembly.body_index(block)).collect(),
-        accelerations: motion.iter().map(|&(block, value)| assembly.in_world(block, value)).collect(),
+        accelerations: under.motion.iter().map(|&(block, value)| assembly.in_world(block, value)).collect(),
         falling,
         forces: assembly
-            .contact_forces(&assembly.rows(blocks), f)
+            .contact_forces(&assembly.rows(blocks), |j| under.forces[j])
             .into_iter()
             .map(|force| (assembly.contacts()[force.contact].clone(), force))
             .collect(),

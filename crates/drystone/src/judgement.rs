@@ -12,7 +12,7 @@
 
 use crate::{
     equilibrium::equilibrium_of,
-    formulate::{Assembly, BlockSet, Components},
+    formulate::{Assembly, BlockSet, Components, Moving},
     geometry::length,
 };
 use drystone_lcp::cone::{ConeSolver, Membership};
@@ -74,28 +74,23 @@ impl Judgement {
 /// Accelerations of blocks.
 pub(crate) type Motion = Vec<(usize, Components)>;
 
-/// Judges by the magnitudes of the generators in a solution of the complementarity problem, and the accelerations under it
-/// ([`Assembly::motion`]).
-pub(crate) fn judge(
-    assembly: &Assembly,
-    blocks: &BlockSet,
-    motion: &[(usize, Components)],
-    f: impl Fn(usize) -> f64,
-) -> Judgement {
-    let moving = moving_blocks(assembly, motion, &f);
+/// Judges by a solution of the complementarity problem ([`Assembly::moving`]).
+pub(crate) fn judge(assembly: &Assembly, blocks: &BlockSet, under: &Moving) -> Judgement {
+    let moving = moving_blocks(assembly, under);
     if moving.is_empty() {
         return Judgement::Stands;
     }
     let fastest = moving.iter().map(|(block, a)| severity(assembly, *block, a)).fold(0.0, f64::max);
-    if fastest >= DOUBTFUL && proves_fall(assembly, blocks, motion, &f, CLOSING) {
+    if fastest >= DOUBTFUL && proves_fall(assembly, blocks, under, CLOSING) {
         return Judgement::Falls;
     }
     Judgement::by_equilibrium(assembly, blocks)
 }
 
 /// The blocks that are not at rest, with their accelerations.
-pub(crate) fn moving_blocks(assembly: &Assembly, motion: &[(usize, Components)], f: impl Fn(usize) -> f64) -> Motion {
-    motion.iter().filter(|(block, acceleration)| !at_rest(assembly, *block, acceleration, &f)).copied().collect()
+pub(crate) fn moving_blocks(assembly: &Assembly, under: &Moving) -> Motion {
+    let moves = |(block, a): &&(usize, Components)| !at_rest(assembly, *block, a, |j| under.forces[j]);
+    under.motion.iter().filter(moves).copied().collect()
 }
 
 /// Whether the imbalance of the forces on a block, which gives it this acceleration, is none.
@@ -115,8 +110,7 @@ fn largest_force(assembly: &Assembly, block: usize, f: impl Fn(usize) -> f64) ->
 pub(crate) fn proves_fall(
     assembly: &Assembly,
     blocks: &BlockSet,
-    moving: &[(usize, Components)],
-    f: impl Fn(usize) -> f64,
+    Moving { forces, motion: moving }: &Moving,
     closing_share: f64,
 ) -> bool {
     let components = assembly.components();
@@ -139,8 +133,8 @@ pub(crate) fn proves_fall(
             }
         }
         closing = closing.max(-opening);
-        largest = largest.max(f(j));
-        bound += ROUNDING * f(j).max(0.0) * size;
+        largest = largest.max(forces[j]);
+        bound += ROUNDING * forces[j].max(0.0) * size;
     }
     closing <= closing_share * fastest && power > MARGIN * bound
 }

@@ -28,4 +28,5 @@ pub use block_set::BlockSet;
 pub(crate) use cones::cone_edges;
 pub use cones::{Bound, Cones, FACETS};
 pub use generator::{Generator, Wrench};
+pub(crate) use motion::Moving;
 pub use part::{Assemble, Components, Part};

@@ -102,8 +102,7 @@ impl StabilityTest for ByLemke<'_> {
             return Err(no_answer(format!("{} (residual {:.1e})", solution.status.name(), solution.residual)));
         }
         let force = |j: usize| rows.binary_search(&j).map_or(0.0, |place| solution.z[place]);
-        let motion = self.assembly.motion(blocks, force);
-        let found = judge(self.assembly, blocks, &motion, force).found();
+        let found = judge(self.assembly, blocks, &self.assembly.moving(blocks, force)).found();
         let outcome = TestOutcome::of(found, solution.counts.pivots)
             .ok_or_else(|| no_answer(format!("{found:?} (residual {:.1e})", solution.residual)))?;
         self.found = Some(Start { indices: rows, z: solution.z });

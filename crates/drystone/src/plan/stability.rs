@@ -141,16 +141,15 @@ pub(super) fn solve_by(
     let before = solver.counts().pivots;
     let no_answer = |reason: String| PlanError::NoAnswer { blocks: blocks.len(), reason };
     let status = method(solver).map_err(|error| no_answer(error.to_string()))?;
-    let force = |j: usize| solver.z(j);
-    let motion = assembly.motion(blocks, force);
+    let moving = assembly.moving(blocks, |j| solver.z(j));
     let judgement = match status {
-        Status::Solved => judge(assembly, blocks, &motion, force),
+        Status::Solved => judge(assembly, blocks, &moving),
         _ => Judgement::by_equilibrium(assembly, blocks),
     };
     let outcome = TestOutcome::of(judgement.found(), solver.counts().pivots - before)
         .ok_or_else(|| no_answer(format!("{} (residual {:.1e})", status.name(), solver.residual())))?;
     let collapse = match judgement {
-        Judgement::Falls => Some(collapse_of(assembly, moving_blocks(assembly, &motion, force))),
+        Judgement::Falls => Some(collapse_of(assembly, moving_blocks(assembly, &moving))),
         Judgement::ByEquilibrium(Membership::Outside, equilibrium) => {
             Some(collapse_of(assembly, collapse_motion(assembly, &equilibrium)))
         }
