@@ -143,3 +143,14 @@ def test_forces_given_out_for_thin_shims_hold_each_block(method: str) -> None:
     assert tower.right is True
     assert verdict.stable
     assert proofs.proves(verdict) == ""
+
+
+@pytest.mark.parametrize("hold", [0, 1])
+def test_a_plan_asks_the_accelerations_where_the_forces_do_not_tell(hold: int) -> None:
+    """A part of this tower falls by the accelerations only: masses 1e8 apart."""
+    from structures import families
+
+    made = dict(families.families(3))["tower 1e8 mu 0.5"]
+    tower = made(np.random.default_rng([0, 3, 4, 21]))
+    plan = ds.plan(families.scene_of(tower, families.Seen()), hold=hold, node_limit=300)
+    assert plan.status == ("no_order", "found")[hold]

@@ -11,7 +11,7 @@
 
 use super::collapse::Collapse;
 use super::hitting::next_hitting_set;
-use super::stability::{PlanError, StabilityTest, TestOutcome, certified_collapse};
+use super::stability::{PlanError, StabilityTest, TestOutcome, by_accelerations, certified_collapse};
 use crate::formulate::{Assembly, BlockRows, BlockSet};
 use drystone_lcp::cone::{ConeSolver, Mark};
 
@@ -44,6 +44,8 @@ pub(super) struct Holding<'a> {
     added: usize,
     holds: Vec<Vec<usize>>,
     collapses: Vec<Collapse>,
+    /// How the one tested last falls with nothing held, where accelerations had to tell.
+    fell: Option<Collapse>,
     undecided: usize,
 }
 
@@ -63,6 +65,7 @@ impl<'a> Holding<'a> {
             added: 0,
             holds: Vec::new(),
             collapses: Vec::new(),
+            fell: None,
             undecided: 0,
         }
     }
@@ -78,12 +81,21 @@ impl<'a> Holding<'a> {
         self.path.iter().skip(1).map(|level| (level.added, level.holds.as_slice()))
     }
 
-    /// Whether what is there stands with these blocks held; None if that is borderline.
+    /// Whether what is there stands with these blocks held; None if that is borderline. Where the solver has no answer the
+    /// accelerations may have one with nothing held; with hands there is none then.
     fn stands(&mut self, held: &[usize], blocks: &BlockSet) -> Result<Option<bool>, PlanError> {
         let rows: Vec<usize> = held.iter().map(|&block| self.assembly.hand_row(block)).collect();
         self.solver.add_rows(&rows);
         let found = self.solver.decide();
-        let outcome = TestOutcome::of_equilibrium(found, &self.solver, 0, blocks.len())?;
+        let outcome = match TestOutcome::of(found, 0) {
+            Some(outcome) => outcome,
+            None if !held.is_empty() => return Ok(None),
+            None => {
+                let tested = by_accelerations(self.assembly, blocks)?;
+                self.fell = tested.collapse;
+                tested.outcome
+            }
+        };
         Ok((!outcome.borderline).then_some(outcome.stands))
     }
 
@@ -91,7 +103,9 @@ impl<'a> Holding<'a> {
     fn find_holds(&mut self, blocks: &BlockSet) -> Result<(), PlanError> {
         let unheld = self.solver.mark();
         let preference: Vec<usize> = self.newest_first().collect();
-        self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
+        let fell = self.fell.take();
+        let fell = fell.unwrap_or_else(|| certified_collapse(&self.solver, &self.rows, &self.loads));
+        self.collapses.push(fell);
         let mut family = vec![self.moving(&[])];
         let mut tried = 0;
         while let Some(held) = next_hitting_set(&family, self.hands, &preference, &self.holds) {
@@ -151,6 +165,7 @@ impl StabilityTest for Holding<'_> {
         self.added = added;
         self.holds.clear();
         self.collapses.clear();
+        self.fell = None;
         let before = self.solver.counts().pivots;
         self.solver.add_rows(self.rows.of(added));
         let unheld = self.stands(&[], blocks)?;

@@ -14,7 +14,7 @@
 //! `sum F_b' v_b <= 0` over its blocks.
 
 use super::collapse::Collapse;
-use super::stability::{PlanError, StabilityTest, TestOutcome};
+use super::stability::{PlanError, StabilityTest, TestOutcome, by_accelerations};
 use crate::{
     equilibrium::collapse_motion,
     formulate::{Assembly, BlockRows, BlockSet, Components},
@@ -131,8 +131,14 @@ impl StabilityTest for Onward<'_> {
         // The last test before the structure is complete brings all forces up to date, and checks them.
         let last = blocks.len() + 1 == self.assembly.blocks();
         let found = if last { self.solver.solve() } else { self.solver.decide() };
-        let outcome =
-            TestOutcome::of_equilibrium(found, &self.solver, self.solver.counts().pivots - before, blocks.len())?;
+        let outcome = match TestOutcome::of(found, 0) {
+            Some(outcome) => outcome,
+            None => {
+                let tested = by_accelerations(self.assembly, blocks)?;
+                self.fell = tested.collapse;
+                tested.outcome
+            }
+        };
         if found == Membership::Outside {
             self.fell = Some(self.carry_on(blocks));
         }

@@ -107,23 +107,20 @@ impl TestOutcome {
         };
         Some(Self { stands, borderline, pivots })
     }
-
-    /// The same of an equilibrium solver's answer.
-    pub(super) fn of_equilibrium(
-        found: Membership,
-        solver: &ConeSolver,
-        pivots: usize,
-        blocks: usize,
-    ) -> Result<Self, PlanError> {
-        let reason = || format!("{found:?} (residual {:.1e})", solver.residual());
-        Self::of(found, pivots).ok_or_else(|| PlanError::NoAnswer { blocks, reason: reason() })
-    }
 }
 
 /// What a test by the complementarity problem has found, and how it falls if it does.
+#[derive(Debug)]
 pub(super) struct Tested {
     pub outcome: TestOutcome,
     pub collapse: Option<Collapse>,
+}
+
+/// What accelerations say of a sub-assembly where an equilibrium solver has no answer (as in `check.rs`).
+pub(super) fn by_accelerations(assembly: &Assembly, blocks: &BlockSet) -> Result<Tested, PlanError> {
+    let mut solver = solver_for(assembly);
+    solver.add_rows(&assembly.rows(blocks)).expect("rows of this assembly's problem");
+    solve(assembly, &mut solver, blocks)
 }
 
 /// Solves what is present by Dantzig's method, and reads the answer.
@@ -207,7 +204,8 @@ impl StabilityTest for FromScratch<'_> {
 /// than `A = G' M^-1 G`. If there are none, the certificate is a virtual motion that opens no contact against
 /// its force and in which the weights do work: the way in which it falls.
 #[derive(Debug)]
-pub struct Reuse {
+pub struct Reuse<'a> {
+    assembly: &'a Assembly,
     solver: ConeSolver,
     rows: BlockRows,
     /// Applied wrenches, row by row.
@@ -216,15 +214,26 @@ pub struct Reuse {
     /// States of the current sub-assembly and its ancestors, the current one last.
     path: Vec<Mark>,
     at_current: bool,
+    /// How the last one tested falls, where the solver had no answer and the accelerations had.
+    by_accelerations: Option<Tested>,
 }
 
-impl Reuse {
+impl<'a> Reuse<'a> {
     /// Takes the generators of the complete assembly; the current sub-assembly is empty.
-    pub fn new(assembly: &Assembly) -> Self {
+    pub fn new(assembly: &'a Assembly) -> Self {
         let mut solver = assembly.equilibrium();
         let blocks = assembly.blocks();
         let loads = (0..blocks).flat_map(|block| assembly.applied(block)).copied().collect();
-        Self { rows: assembly.equilibrium_rows(), loads, blocks, path: vec![solver.mark()], solver, at_current: true }
+        Self {
+            assembly,
+            rows: assembly.equilibrium_rows(),
+            loads,
+            blocks,
+            path: vec![solver.mark()],
+            solver,
+            at_current: true,
+            by_accelerations: None,
+        }
     }
 
     /// The solver, for its counts.
@@ -247,7 +256,7 @@ pub(crate) fn certified_collapse(solver: &ConeSolver, rows: &BlockRows, loads: &
     Collapse::new(moving)
 }
 
-impl StabilityTest for Reuse {
+impl StabilityTest for Reuse<'_> {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         if !self.at_current
             && let Some(current) = self.path.last_mut()
@@ -261,7 +270,15 @@ impl StabilityTest for Reuse {
         // The last test before the structure is complete brings all forces up to date, and checks them.
         let last = blocks.len() + 1 == self.blocks;
         let found = if last { self.solver.solve() } else { self.solver.decide() };
-        TestOutcome::of_equilibrium(found, &self.solver, self.solver.counts().pivots - before, blocks.len())
+        let pivots = self.solver.counts().pivots - before;
+        if let Some(outcome) = TestOutcome::of(found, pivots) {
+            self.by_accelerations = None;
+            return Ok(outcome);
+        }
+        let tested = by_accelerations(self.assembly, blocks)?;
+        let outcome = TestOutcome { pivots: tested.outcome.pivots + pivots, ..tested.outcome };
+        self.by_accelerations = Some(tested);
+        Ok(outcome)
     }
 
     fn explains(&self) -> bool {
@@ -269,7 +286,10 @@ impl StabilityTest for Reuse {
     }
 
     fn collapse(&self) -> Option<Collapse> {
-        Some(certified_collapse(&self.solver, &self.rows, &self.loads))
+        match &self.by_accelerations {
+            Some(tested) => tested.collapse.clone(),
+            None => Some(certified_collapse(&self.solver, &self.rows, &self.loads)),
+        }
     }
 
     fn descend(&mut self) {
