@@ -28,6 +28,7 @@ mod counts;
 mod error;
 pub mod factor;
 mod generators;
+pub mod interior;
 pub mod interrupt;
 mod matrix;
 mod pivot;

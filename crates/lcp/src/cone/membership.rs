@@ -128,6 +128,12 @@ pub struct ConeSolver {
     shaky: bool,
     /// Entries of the factor above which it is built again in a sparser order.
     most_entries: usize,
+    /// See [`Self::limit_effort`].
+    #[serde(skip, default = "unlimited")]
+    most_effort: usize,
+    /// See [`Self::only_in_64_bits`].
+    #[serde(skip)]
+    only_in_64_bits: bool,
     /// Room for [`Self::roll_back`].
     #[serde(skip)]
     rolled_back: Vec<u32>,
@@ -136,6 +142,11 @@ pub struct ConeSolver {
 }
 
 const OUT: u32 = u32::MAX;
+
+fn unlimited() -> usize {
+    usize::MAX
+}
+
 /// Rate of the infeasibility, relative to the largest multiplier, below which a column does not help (columns have a
 /// largest entry of one): less is rounding of the multipliers.
 const RATE: f64 = 1e-9;
@@ -235,6 +246,8 @@ impl ConeSolver {
             counts: Counts::default(),
             shaky: false,
             most_entries: 0,
+            most_effort: unlimited(),
+            only_in_64_bits: false,
             rolled_back: Vec::new(),
             tally: Tally::default(),
             g,
@@ -334,6 +347,32 @@ impl ConeSolver {
         for &(j, _) in self.g.columns_of(row) {
             self.missing[j as usize] -= 1;
         }
+    }
+
+    /// The next rows start a group of their own, as those do that come after an answer: rows of one block belong together.
+    pub fn begin_group(&mut self) {
+        self.group_closed = true;
+    }
+
+    /// Effort so far: numbers of the factor read, and columns priced.
+    pub fn effort(&self) -> usize {
+        self.factor.effort() + self.pricing.effort()
+    }
+
+    /// Answers are [`Membership::PivotLimit`] from now on if they would take the effort beyond this.
+    pub fn limit_effort(&mut self, most: usize) {
+        self.most_effort = most;
+    }
+
+    /// Where 64-bit numbers do not decide, answers are [`Membership::NumericalTrouble`] from now on, instead of those of many more
+    /// digits, which take long: for who has another way.
+    pub fn only_in_64_bits(&mut self) {
+        self.only_in_64_bits = true;
+    }
+
+    /// Whether its effort is beyond the limit.
+    pub fn is_exhausted(&self) -> bool {
+        self.effort() > self.most_effort
     }
 
     /// Decides whether `h` is in the cone of the present columns, and finds `f` if so.

@@ -12,6 +12,8 @@ pub(super) struct Pricing {
     touched: Vec<u32>,
     preferred: Range<u32>,
     #[serde(skip)]
+    effort: usize,
+    #[serde(skip)]
     tally: Tally,
 }
 
@@ -27,7 +29,17 @@ const COLUMN: usize = 8;
 
 impl Pricing {
     pub fn new(columns: usize) -> Self {
-        Self { seen: vec![false; columns], touched: Vec::new(), preferred: 0..0, tally: Tally::default() }
+        Self { seen: vec![false; columns], touched: Vec::new(), preferred: 0..0, effort: 0, tally: Tally::default() }
+    }
+
+    /// Operations so far, about.
+    pub fn effort(&self) -> usize {
+        self.effort
+    }
+
+    fn count(&mut self, operations: usize) {
+        self.effort += operations;
+        self.tally.count(operations);
     }
 
     /// Makes room for so many columns.
@@ -54,13 +66,13 @@ impl Pricing {
         let mut best = Best { floor, least_index, found: None };
         let preferred = if least_index { 0..0 } else { self.preferred.clone() };
         if DENSE * y.index().len() > g.rows() {
-            self.tally.count(COLUMN * g.len());
+            self.count(COLUMN * g.len());
             let others = (0..preferred.start).chain(preferred.end..g.len() as u32);
             best.of_all(preferred.filter(|&j| allowed(j)), rate);
             best.of_all_if_none(others.filter(|&j| allowed(j)), rate);
         } else {
             self.touch(g, y, allowed);
-            self.tally.count(COLUMN * self.touched.len());
+            self.count(COLUMN * self.touched.len());
             best.of_all(self.touched.iter().copied().filter(|j| preferred.contains(j)), rate);
             best.of_all_if_none(self.touched.iter().copied().filter(|j| !preferred.contains(j)), rate);
             self.touched.clear();

@@ -9,6 +9,7 @@ mod cycling;
 mod doubt;
 mod follow;
 mod growing;
+mod interior;
 mod lemke_reuse;
 mod masked;
 mod problems;

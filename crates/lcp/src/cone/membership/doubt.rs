@@ -55,9 +55,35 @@ impl ConeSolver {
         power > MARGIN * (bound + closing * self.size)
     }
 
+    /// Takes over a certificate that another method has found, (row, multiplier) in the units of [`Self::certificate`], if it
+    /// proves that `h` is outside. `force` is the largest in that method's answer, in the caller's unit.
+    pub fn adopt_certificate(&mut self, multipliers: &[(usize, f64)], force: f64) -> bool {
+        self.y.clear();
+        for &(row, value) in multipliers.iter().filter(|&&(row, value)| self.present[row] && value != 0.0) {
+            self.y.set(row as u32, value / self.row_scale[row]);
+        }
+        let largest = self.y.largest();
+        let scale = self.column_scale.iter().fold(f64::INFINITY, |least, scale| least.min(*scale));
+        let (mut bound, mut closing) = (0.0, 0.0_f64);
+        for (row, y) in self.y.iter() {
+            bound += OF_LARGEST * (y * self.h[row as usize]).abs();
+            for &(j, _) in self.g.columns_of(row).iter().filter(|(j, _)| self.missing[*j as usize] == 0) {
+                let terms = self.g.column(j).iter().map(|&(row, value)| value * self.y.get(row));
+                closing = closing.max(terms.sum());
+            }
+        }
+        let power = self.certificate_power();
+        closing <= 10.0 * RATE * largest
+            && power > 2.0 * OF_FORCE * largest
+            && power > MARGIN * (bound + closing * (force / scale + 1.0))
+    }
+
     /// Decides in double-double arithmetic, from the basis as it is.
     pub(super) fn decide_extended(&mut self) -> Membership {
         self.behind = false;
+        if self.only_in_64_bits {
+            return Membership::NumericalTrouble;
+        }
         if !self.rebuild(&self.basis_set()) {
             return Membership::NumericalTrouble;
         }

@@ -27,6 +27,19 @@ impl BasisSet {
 }
 
 impl ConeSolver {
+    /// Begins from a basis of these columns, as far as all their rows are present: those that depend on others stay out, and
+    /// unit columns take the places that are left. The next answer makes the pivots that remain. Marks end here.
+    pub fn start_from(&mut self, columns: impl IntoIterator<Item = usize>) {
+        self.forget();
+        let whole = |&j: &u32| self.missing[j as usize] == 0;
+        let columns = columns.into_iter().map(|j| j as u32).filter(whole).collect();
+        let units: Vec<bool> = self.present.iter().map(|present| !present).collect();
+        if !self.rebuild(&BasisSet { columns, units }) {
+            self.rebuild(&BasisSet { columns: Vec::new(), units: vec![true; self.basic.len()] });
+        }
+        self.recompute_values();
+    }
+
     /// The basis as a set.
     pub(super) fn basis_set(&self) -> BasisSet {
         let units = (0..self.basic.len() as u32).map(|p| self.column_in(p).is_none()).collect();

@@ -20,7 +20,7 @@ impl ConeSolver {
             if self.suspects.is_empty() {
                 return Some(Membership::Inside);
             }
-            if self.counts.pivots >= limit {
+            if self.counts.pivots >= limit || self.is_exhausted() {
                 return Some(Membership::PivotLimit);
             }
             self.multipliers();

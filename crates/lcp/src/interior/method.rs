@@ -1,0 +1,296 @@
+//! Predictor and corrector.
+
+use super::{
+    matrix::BodyMatrix,
+    scaled::{Scaled, largest},
+    scaling::{Scaling, step},
+};
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub struct Found {
+    /// How it ended.
+    pub end: End,
+    /// Accelerations, body after body: m/s^2, rad/s^2.
+    pub accelerations: Vec<f64>,
+    /// Point after point: magnitudes along the edges, or the three components, N.
+    pub forces: Vec<f64>,
+    /// Of each of these whether it bears rather than opens, `f > s` in the problem's own scale.
+    pub bearing: Vec<bool>,
+    /// Matrices factored.
+    pub iterations: usize,
+    /// `f' s` for each cone, in units of the problem's own scale: how far it is from (2).
+    pub gap: f64,
+}
+
+/// How an interior point method ended. Whoever asks judges the answer in any case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The forces hold every body, to working precision; the gap may still be larger.
+    AtRest,
+    /// The residuals and the gap are as small as working precision allows, or so small that more is not worth its time.
+    Converged,
+    /// No further progress.
+    Stalled,
+    /// There was no memory for the factor.
+    OutOfMemory,
+}
+
+/// Gap for each cone, in the problem's own scale. Accelerations differ from the right ones by its square root at most: so much
+/// where a contact neither bears nor opens, as between blocks that fall side by side.
+const GAP: f64 = 1e-24;
+/// Residuals in the problem's own scale: rounding of some ten terms of the largest force, or of one.
+const RESIDUAL: f64 = 1e-14;
+/// What the forces may leave of a body's own load: a hundredth of what counts as rest.
+const REST: f64 = 1e-11;
+/// Gap from which on forces that are positive in the end are told from those that are not.
+const TOLD_APART: f64 = 1e-6;
+/// Iterations are some 10 to 25; ten times as many say that there is no progress.
+const MOST: usize = 200;
+/// An iteration that leaves more than this share of gap and residual is none, and how many of them in a row are the end.
+const PROGRESS: f64 = 0.9;
+const PATIENCE: usize = 8;
+/// The same from a gap on at which accelerations are good to a share of 1e-6 at least: more is worth a few iterations, not many.
+const LATE: f64 = 1e-12;
+const LATE_PROGRESS: f64 = 0.3;
+const LATE_PATIENCE: usize = 2;
+/// Share of the way to the border of the cones.
+const SHARE: f64 = 0.995;
+/// Weight of the proximal term: of the gap, within bounds. It changes no answer; larger is slower, smaller loses digits.
+const PROXIMAL: f64 = 1e-7;
+const PROXIMAL_BOUNDS: [f64; 2] = [1e-11, 1e-8];
+/// Weight of the proximal term on the motion where there are no masses.
+const PROXIMAL_MASS: f64 = 1e-9;
+/// Refinements of a step, each until what is left is rounding.
+const REFINEMENTS: usize = 3;
+const REFINED: f64 = 1e-16;
+
+pub(super) struct Interior<const B: usize, const D: usize> {
+    problem: Scaled<B, D>,
+    a: Vec<[f64; B]>,
+    f: Vec<f64>,
+    s: Vec<f64>,
+    /// Number of cones.
+    cones: usize,
+    /// One in (1); none where a cost takes the place of the masses.
+    mass: f64,
+    /// What a unit of each force costs; with masses the offset.
+    cost: Vec<f64>,
+}
+
+/// A Newton step, and the vectors that it takes.
+struct Step<const B: usize> {
+    da: Vec<[f64; B]>,
+    df: Vec<f64>,
+    ds: Vec<f64>,
+    /// `J da`.
+    moved: Vec<f64>,
+    correction: Vec<f64>,
+    left: Vec<[f64; B]>,
+    other: Vec<f64>,
+    mass: f64,
+    /// Weight of a proximal term on the motion: in place of masses, and where the matrix would have no factor.
+    proximal: f64,
+}
+
+/// Residuals of (2) at a point.
+struct Residuals<const B: usize> {
+    /// `M a - J' f - F`.
+    balance: Vec<[f64; B]>,
+    /// `J a`, and the cost.
+    motion: Vec<f64>,
+    worst: f64,
+    gap: f64,
+    /// The largest force.
+    force: f64,
+}
+
+impl<const B: usize, const D: usize> Interior<B, D> {
+    pub fn new(problem: Scaled<B, D>) -> Self {
+        let mut f = vec![1.0; problem.forces()];
+        let mut cones = f.len();
+        for point in problem.points.iter().filter(|point| point.round) {
+            f[point.own()].copy_from_slice(&[1.0, 0.0, 0.0]);
+            cones -= 2;
+        }
+        let a = vec![[0.0; B]; problem.load.len()];
+        Self { a, s: f.clone(), f, cones, mass: 1.0, cost: problem.offset(), problem }
+    }
+
+    /// The forces of least cost that hold the bodies, from some that do: (2) with `s = J a + cost` and no masses. Where
+    /// costs are of no particular kind these are the ones of a vertex: as many are positive as there are rows, or fewer.
+    pub fn of_least_cost(problem: Scaled<B, D>, forces: &[f64], cost: Vec<f64>) -> Self {
+        let f = problem.in_own_units(forces);
+        Self { f, s: cost.clone(), cost, mass: 0.0, ..Self::new(problem) }
+    }
+
+    /// The forces that are positive in the end rather than dear. None if it does not come to an end.
+    pub fn basis(self) -> Option<Vec<usize>> {
+        let found = self.solve();
+        let bearing = || (0..found.bearing.len()).filter(|&j| found.bearing[j]).collect();
+        (found.gap <= TOLD_APART).then(bearing)
+    }
+
+    pub fn solve(mut self) -> Found {
+        let Some(mut matrix) = BodyMatrix::new(&self.problem) else {
+            return self.found(End::OutOfMemory, 0, f64::INFINITY);
+        };
+        let mut step = Step::new(self.a.len(), self.f.len(), self.mass);
+        let (mut best, mut since, mut residuals) = (f64::INFINITY, 0, self.residuals());
+        for iteration in 0..MOST {
+            let merit = residuals.merit();
+            if self.mass > 0.0 && iteration > 0 && self.at_rest(&residuals) {
+                return self.found(End::AtRest, iteration, residuals.gap);
+            }
+            if merit <= 1.0 {
+                return self.found(End::Converged, iteration, residuals.gap);
+            }
+            let late = residuals.gap < LATE;
+            since = if merit < if late { LATE_PROGRESS } else { PROGRESS } * best { 0 } else { since + 1 };
+            best = best.min(merit);
+            if since > if late { LATE_PATIENCE } else { PATIENCE } || !self.iterate(&mut matrix, &mut step, &residuals)
+            {
+                return self.found(if late { End::Converged } else { End::Stalled }, iteration, residuals.gap);
+            }
+            residuals = self.residuals();
+        }
+        self.found(End::Stalled, MOST, residuals.gap)
+    }
+
+    /// One step of predictor and corrector. False if there is none.
+    fn iterate(&mut self, matrix: &mut BodyMatrix<B>, way: &mut Step<B>, residuals: &Residuals<B>) -> bool {
+        let problem = &self.problem;
+        let [least, most] = PROXIMAL_BOUNDS;
+        let delta = (PROXIMAL * residuals.gap).clamp(least, most);
+        let scaling = Scaling::at(problem, &self.f, &self.s, delta);
+        way.proximal = if self.mass > 0.0 { 0.0 } else { PROXIMAL_MASS };
+        matrix.reset(self.mass + way.proximal);
+        let mut index = 0;
+        scaling.weights(problem, |point, weight| {
+            matrix.add(index, point, &weight);
+            index += 1;
+        });
+        let Some(more) = matrix.factor() else { return false };
+        way.proximal += more;
+        way.correction.fill(0.0);
+        way.newton(problem, matrix, &scaling, residuals, &self.s, 0);
+        let length = step(problem, &self.f, &way.df).min(step(problem, &self.s, &way.ds));
+        let centring = (self.gap_after(way, length) / residuals.gap).clamp(0.0, 1.0).powi(3);
+        let target = centring * residuals.gap;
+        scaling.centre(problem, &self.f, target, [&way.df, &way.ds], &mut way.correction);
+        way.newton(problem, matrix, &scaling, residuals, &self.s, REFINEMENTS);
+        let mut lengths =
+            [step(problem, &self.f, &way.df), step(problem, &self.s, &way.ds)].map(|length| SHARE * length);
+        if self.mass > 0.0 {
+            lengths = [lengths[0].min(lengths[1]); 2]; // masses couple forces and accelerations
+        }
+        if !(way.da.iter().flatten().chain(&way.df).chain(&lengths).all(|d| d.is_finite())) {
+            return false;
+        }
+        let [of_forces, of_motion] = lengths;
+        self.a.iter_mut().flatten().zip(way.da.iter().flatten()).for_each(|(a, da)| *a += of_motion * da);
+        self.f.iter_mut().zip(&way.df).for_each(|(f, df)| *f += of_forces * df);
+        self.s.iter_mut().zip(&way.ds).for_each(|(s, ds)| *s += of_motion * ds);
+        true
+    }
+
+    fn gap_after(&self, way: &Step<B>, length: f64) -> f64 {
+        let after = |j: usize| (self.f[j] + length * way.df[j]) * (self.s[j] + length * way.ds[j]);
+        (0..self.f.len()).map(after).sum::<f64>() / self.cones.max(1) as f64
+    }
+
+    fn residuals(&self) -> Residuals<B> {
+        let less = |(a, load): (&[f64; B], &[f64; B])| std::array::from_fn(|k| self.mass * a[k] - load[k]);
+        let mut balance: Vec<[f64; B]> = self.a.iter().zip(&self.problem.load).map(less).collect();
+        self.problem.add_wrenches(&self.f, -1.0, &mut balance);
+        let mut motion = vec![0.0; self.s.len()];
+        self.problem.motion(&self.a, &mut motion);
+        motion.iter_mut().zip(&self.cost).for_each(|(motion, cost)| *motion += cost);
+        let apart = motion.iter().zip(&self.s).fold(0.0_f64, |worst, (motion, s)| worst.max((motion - s).abs()));
+        let worst = largest(&balance).max(apart);
+        let gap = self.f.iter().zip(&self.s).map(|(f, s)| f * s).sum::<f64>() / self.cones.max(1) as f64;
+        let force = self.f.iter().fold(0.0_f64, |largest, f| largest.max(f.abs()));
+        Residuals { balance, motion, worst, gap, force }
+    }
+
+    /// Whether what the forces leave of each body's load, `M a` and the residual, is none.
+    fn at_rest(&self, residuals: &Residuals<B>) -> bool {
+        let left = self.a.iter().zip(&residuals.balance);
+        left.zip(&self.problem.load).all(|((a, balance), load)| {
+            let own = load.iter().fold(0.0_f64, |largest, load| largest.max(load.abs()));
+            (0..B).all(|k| (a[k] - balance[k]).abs() <= REST * own)
+        })
+    }
+
+    fn found(self, end: End, iterations: usize, gap: f64) -> Found {
+        let (accelerations, forces) = (self.problem.accelerations(&self.a), self.problem.in_newtons(&self.f));
+        let bearing = self.f.iter().zip(&self.s).map(|(f, s)| f > s).collect();
+        Found { end, accelerations, forces, bearing, iterations, gap }
+    }
+}
+
+impl<const B: usize> Residuals<B> {
+    /// At most one where all is as small as working precision allows.
+    fn merit(&self) -> f64 {
+        (self.worst / (RESIDUAL * self.force.max(1.0))).max(self.gap / GAP)
+    }
+}
+
+impl<const B: usize> Step<B> {
+    fn new(bodies: usize, forces: usize, mass: f64) -> Self {
+        let (rows, columns) = (|| vec![[0.0; B]; bodies], || vec![0.0; forces]);
+        let (da, left) = (rows(), rows());
+        let (df, ds, moved, correction, other) = (columns(), columns(), columns(), columns(), columns());
+        Self { da, df, ds, moved, correction, left, other, mass, proximal: 0.0 }
+    }
+
+    /// The Newton step of (2) for the product that `self.correction` asks for.
+    fn newton<const D: usize>(
+        &mut self,
+        problem: &Scaled<B, D>,
+        matrix: &mut BodyMatrix<B>,
+        scaling: &Scaling,
+        residuals: &Residuals<B>,
+        s: &[f64],
+        refinements: usize,
+    ) {
+        // f takes up what the cones ask for, W^2 df + ds + s = correction, where ds = J (a + da) - s + delta df.
+        let asked = self.correction.iter().zip(&residuals.motion).map(|(correction, motion)| correction - motion);
+        self.df.clear();
+        self.df.extend(asked);
+        scaling.divide(problem, &mut self.df);
+        self.da.iter_mut().zip(&residuals.balance).for_each(|(da, balance)| *da = balance.map(|balance| -balance));
+        problem.add_wrenches(&self.df, 1.0, &mut self.da);
+        matrix.solve(&mut self.da);
+        problem.motion(&self.da, &mut self.moved);
+        self.give_way(problem, scaling, false);
+        let scale = self.df.iter().fold(1.0_f64, |largest, df| largest.max(df.abs()));
+        for _ in 0..refinements {
+            for ((left, balance), da) in self.left.iter_mut().zip(&residuals.balance).zip(&self.da) {
+                *left = std::array::from_fn(|k| -balance[k] - (self.mass + self.proximal) * da[k]);
+            }
+            problem.add_wrenches(&self.df, 1.0, &mut self.left);
+            if largest(&self.left) <= REFINED * scale {
+                break;
+            }
+            matrix.solve(&mut self.left);
+            problem.motion(&self.left, &mut self.other);
+            self.da.iter_mut().flatten().zip(self.left.iter().flatten()).for_each(|(da, more)| *da += more);
+            self.moved.iter_mut().zip(&self.other).for_each(|(moved, more)| *moved += more);
+            self.give_way(problem, scaling, true);
+        }
+        for (j, ds) in self.ds.iter_mut().enumerate() {
+            *ds = self.moved[j] + residuals.motion[j] - s[j] + scaling.delta * self.df[j];
+        }
+    }
+
+    /// Takes from the forces what a motion changes in them: all of it, or what a refinement adds. In that order no digits of
+    /// the forces are lost where `(W^2 + delta)^-1` is large.
+    fn give_way<const D: usize>(&mut self, problem: &Scaled<B, D>, scaling: &Scaling, refined: bool) {
+        if !refined {
+            self.other.copy_from_slice(&self.moved);
+        }
+        scaling.divide(problem, &mut self.other);
+        self.df.iter_mut().zip(&self.other).for_each(|(df, moved)| *df -= moved);
+    }
+}

@@ -1,0 +1,174 @@
+//! The problem in its own units: `M` becomes one, the largest load one, and a row of J has at most length one.
+
+use super::problem::{Cone, Gauss};
+
+/// A [`Gauss`] problem with `a~ = M^1/2 a / unit`, `f~` and `s~` in units of their rows; bodies of B unknowns, contacts of D
+/// directions.
+pub(super) struct Scaled<const B: usize, const D: usize> {
+    /// `M^-1/2 F / unit`.
+    pub load: Vec<[f64; B]>,
+    pub points: Vec<ScaledPoint<B, D>>,
+    /// What each unknown force is along the directions of its point: an edge, whose row of `J` has length one, or a component
+    /// of a round cone, scaled so that the cone is the second-order one.
+    pub edges: Vec<[f64; D]>,
+    /// What the force of each edge was divided by.
+    lengths: Vec<f64>,
+    /// [`Gauss::offset`] in own units; may be empty.
+    offset: Vec<f64>,
+    /// Largest entry of `M^-1/2 F`.
+    unit: f64,
+    root: Vec<[f64; B]>,
+}
+
+/// A point, its rows multiplied by `M^-1/2`.
+pub(super) struct ScaledPoint<const B: usize, const D: usize> {
+    bodies: [u32; 2],
+    pub jacobian: [[[f64; B]; D]; 2],
+    /// Its forces, first and behind the last.
+    first: u32,
+    end: u32,
+    /// Whether its cone is a second-order one.
+    pub round: bool,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl<const B: usize, const D: usize> ScaledPoint<B, D> {
+    /// Its forces.
+    pub fn own(&self) -> std::ops::Range<usize> {
+        self.first as usize..self.end as usize
+    }
+
+    /// A side's body, if that moves.
+    pub fn body(&self, side: usize) -> Option<usize> {
+        (self.bodies[side] != NONE).then_some(self.bodies[side] as usize)
+    }
+}
+
+impl<const B: usize, const D: usize> Scaled<B, D> {
+    pub fn new(problem: &Gauss) -> Self {
+        let root = problem.inverse_mass.chunks_exact(B).map(|body| std::array::from_fn(|k: usize| body[k].sqrt()));
+        let root: Vec<[f64; B]> = root.collect();
+        let of = |(load, root): (&[f64], &[f64; B])| std::array::from_fn(|k| load[k] * root[k]);
+        let mut load: Vec<[f64; B]> = problem.load.chunks_exact(B).zip(&root).map(of).collect();
+        let unit = largest(&load);
+        let unit = if unit > 0.0 { unit } else { 1.0 };
+        load.iter_mut().flatten().for_each(|load| *load /= unit);
+        let (mut edges, mut lengths) = (Vec::new(), Vec::new());
+        let mut points = Vec::with_capacity(problem.points.len());
+        for point in &problem.points {
+            let side = |side: usize| -> [[f64; B]; D] {
+                let Some(body) = point.bodies[side] else { return [[0.0; B]; D] };
+                std::array::from_fn(|row| std::array::from_fn(|k| point.jacobian[side][row][k] * root[body][k]))
+            };
+            let jacobian = [side(0), side(1)];
+            let first = edges.len();
+            span(&point.cone, &jacobian, &mut edges, &mut lengths);
+            points.push(ScaledPoint {
+                bodies: point.bodies.map(|body| body.map_or(NONE, |body| body as u32)),
+                jacobian,
+                first: first as u32,
+                end: edges.len() as u32,
+                round: matches!(point.cone, Cone::Round { .. }),
+            });
+        }
+        let offset = problem.offset.iter().zip(&lengths).map(|(offset, length)| offset / length / unit).collect();
+        Self { load, points, edges, lengths, offset, unit, root }
+    }
+
+    /// Number of unknown forces.
+    pub fn forces(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// What is added to `J a`.
+    pub fn offset(&self) -> Vec<f64> {
+        if self.offset.is_empty() { vec![0.0; self.forces()] } else { self.offset.clone() }
+    }
+
+    /// `J a`.
+    pub fn motion(&self, a: &[[f64; B]], s: &mut [f64]) {
+        for point in &self.points {
+            let mut u = [0.0; D];
+            for side in [0, 1] {
+                let Some(body) = point.body(side) else { continue };
+                for (u, row) in u.iter_mut().zip(&point.jacobian[side]) {
+                    *u += dot(row, &a[body]);
+                }
+            }
+            for (edge, s) in self.edges[point.own()].iter().zip(&mut s[point.own()]) {
+                *s = dot(edge, &u);
+            }
+        }
+    }
+
+    /// Adds `J' f` times a factor.
+    pub fn add_wrenches(&self, f: &[f64], factor: f64, out: &mut [[f64; B]]) {
+        for point in &self.points {
+            let mut force = [0.0; D];
+            for (edge, f) in self.edges[point.own()].iter().zip(&f[point.own()]) {
+                (0..D).for_each(|k| force[k] += edge[k] * f * factor);
+            }
+            for side in [0, 1] {
+                let Some(body) = point.body(side) else { continue };
+                for (force, row) in force.iter().zip(&point.jacobian[side]) {
+                    out[body].iter_mut().zip(row).for_each(|(out, row)| *out += row * force);
+                }
+            }
+        }
+    }
+
+    /// Accelerations in the caller's units.
+    pub fn accelerations(&self, a: &[[f64; B]]) -> Vec<f64> {
+        a.iter().flatten().zip(self.root.iter().flatten()).map(|(a, root)| a * root * self.unit).collect()
+    }
+
+    /// The other way round.
+    pub fn in_own_units(&self, forces: &[f64]) -> Vec<f64> {
+        forces.iter().zip(&self.lengths).map(|(force, length)| force * length / self.unit).collect()
+    }
+
+    /// Forces in the caller's units: magnitudes along edges, or components.
+    pub fn in_newtons(&self, f: &[f64]) -> Vec<f64> {
+        f.iter().zip(&self.lengths).map(|(f, length)| f / length * self.unit).collect()
+    }
+}
+
+fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    (0..N).map(|k| a[k] * b[k]).sum()
+}
+
+pub(super) fn largest<const N: usize>(x: &[[f64; N]]) -> f64 {
+    x.iter().flatten().fold(0.0, |largest, x| largest.max(x.abs()))
+}
+
+/// The rows of a cone, so that the longest has length one.
+fn span<const B: usize, const D: usize>(
+    cone: &Cone,
+    jacobian: &[[[f64; B]; D]; 2],
+    edges: &mut Vec<[f64; D]>,
+    lengths: &mut Vec<f64>,
+) {
+    let length = |direction: &[f64; D]| -> f64 {
+        let along = |rows: &[[f64; B]; D], k: usize| (0..D).map(|row| direction[row] * rows[row][k]).sum::<f64>();
+        jacobian.iter().flat_map(|rows| (0..B).map(|k| along(rows, k).powi(2))).sum::<f64>().sqrt()
+    };
+    match cone {
+        Cone::Edges(directions) => {
+            for direction in directions {
+                let edge = std::array::from_fn(|k| direction[k]);
+                let length = length(&edge);
+                edges.push(edge.map(|k| k / length));
+                lengths.push(length);
+            }
+        }
+        Cone::Round { friction } => {
+            let diagonal = [friction.recip(), 1.0, 1.0];
+            let axis = |k: usize| std::array::from_fn(|row| if row == k { diagonal[k] } else { 0.0 });
+            let axes: Vec<[f64; D]> = (0..D).map(axis).collect();
+            let longest = axes.iter().map(length).fold(0.0, f64::max);
+            edges.extend(axes.iter().map(|axis| axis.map(|x| x / longest)));
+            lengths.extend(diagonal.map(|x| longest / x));
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! The interior-point method on random bodies and contacts: against Dantzig's method on A, and by (2) itself.
+
+use drystone_lcp::{
+    Dantzig, Method, Problem, Settings, Status,
+    cone::{Columns, ConeSolver, Membership},
+    interior::{Cone, End, Gauss, Point},
+};
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
+
+/// Bodies of so many unknowns, each touching some others or the ground, with normals within a half space.
+fn random(seed: u64, size: usize, bodies: usize, points: usize, friction: Option<f64>) -> Gauss {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut between = |low: f64, high: f64| random.random_range(low..high);
+    let mut problem = Gauss { size, ..Gauss::default() };
+    for _ in 0..bodies {
+        for k in 0..size {
+            problem.inverse_mass.push(between(0.5, 2.0));
+            problem.load.push(if k == 1 { -between(5.0, 15.0) } else { between(-1.0, 1.0) });
+        }
+    }
+    let directions = if size == 3 { 2 } else { 3 };
+    for _ in 0..points {
+        let second = between(0.0, bodies as f64) as usize;
+        let first = between(-1.0, bodies as f64);
+        let first = (first >= 0.0).then_some(first as usize).filter(|&first| first != second);
+        let mut rows = || {
+            let mut jacobian = [[0.0; 6]; 3];
+            jacobian[..directions].iter_mut().for_each(|row| row[..size].fill_with(|| between(-1.0, 1.0)));
+            jacobian
+        };
+        let jacobian = [rows(), rows()];
+        let cone = match friction {
+            Some(friction) => Cone::Round { friction },
+            None => {
+                let edge = |sign: f64| [1.0, 0.5 * sign, if size == 3 { 0.0 } else { 0.3 * sign }];
+                Cone::Edges(vec![edge(1.0), edge(-1.0)])
+            }
+        };
+        problem.points.push(Point { bodies: [first, Some(second)], jacobian, cone });
+    }
+    problem
+}
+
+/// The generators of pyramids as columns: (rows, values) of each.
+fn generators(problem: &Gauss) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
+    let (mut starts, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    for point in &problem.points {
+        let Cone::Edges(edges) = &point.cone else { panic!("pyramids only") };
+        for edge in edges {
+            let mut sides: Vec<_> = point.bodies.iter().zip(&point.jacobian).collect();
+            sides.sort_by_key(|side| *side.0);
+            for (body, jacobian) in sides {
+                let Some(body) = body else { continue };
+                rows.extend(problem.size * body..problem.size * (body + 1));
+                let along = |k: usize| -> f64 { edge.iter().zip(jacobian).map(|(edge, row)| edge * row[k]).sum() };
+                values.extend((0..problem.size).map(along));
+            }
+            starts.push(rows.len());
+        }
+    }
+    (starts, rows, values)
+}
+
+#[test]
+fn accelerations_are_those_of_dantzigs_method() {
+    for seed in 0..60 {
+        let size = if seed % 2 == 0 { 3 } else { 6 };
+        let problem = random(seed, size, 6, 4 + seed as usize / 4, None);
+        let found = problem.solve();
+        assert_eq!((found.end == End::Stalled, found.iterations < 60), (false, true), "seed {seed}: {found:?}");
+        let (starts, rows, values) = generators(&problem);
+        let n = starts.len() - 1;
+        let mut dense = vec![vec![0.0; n]; problem.load.len()];
+        for j in 0..n {
+            (starts[j]..starts[j + 1]).for_each(|k| dense[rows[k]][j] += values[k]);
+        }
+        let inverse = &problem.inverse_mass;
+        let entry = |i: usize, j: usize| (0..dense.len()).map(|r| dense[r][i] * inverse[r] * dense[r][j]).sum::<f64>();
+        let matrix: Vec<f64> = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| entry(i, j)).collect();
+        let q = (0..n).map(|i| (0..dense.len()).map(|r| dense[r][i] * inverse[r] * problem.load[r]).sum()).collect();
+        let answer = Dantzig.solve(&Problem::from_dense(&matrix, q).unwrap(), None, &Settings::default()).unwrap();
+        assert_eq!(answer.status, Status::Solved, "seed {seed}");
+        for r in 0..dense.len() {
+            let force: f64 = (0..n).map(|j| dense[r][j] * answer.z[j]).sum();
+            let acceleration = inverse[r] * (problem.load[r] + force);
+            assert!((acceleration - found.accelerations[r]).abs() < 1e-8, "seed {seed}, row {r}");
+        }
+    }
+}
+
+#[test]
+fn round_cones_obey_the_conditions_of_optimality() {
+    for seed in 0..60 {
+        let friction = [0.05, 0.5, 3.0][seed as usize % 3];
+        let problem = random(seed, 6, 5, 3 + seed as usize / 3, Some(friction));
+        let found = problem.solve();
+        assert_ne!(found.end, End::Stalled, "seed {seed}");
+        let mut balance: Vec<f64> = (0..problem.load.len())
+            .map(|r| found.accelerations[r] / problem.inverse_mass[r] - problem.load[r])
+            .collect();
+        let largest = found.forces.iter().fold(1.0_f64, |largest, f| largest.max(f.abs()));
+        for (k, point) in problem.points.iter().enumerate() {
+            let f = &found.forces[3 * k..3 * k + 3];
+            let mut u = [0.0; 3];
+            for (body, jacobian) in point.bodies.iter().zip(&point.jacobian) {
+                let Some(body) = body else { continue };
+                for row in 0..3 {
+                    for entry in 0..6 {
+                        u[row] += jacobian[row][entry] * found.accelerations[6 * body + entry];
+                        balance[6 * body + entry] -= jacobian[row][entry] * f[row];
+                    }
+                }
+            }
+            assert!(f[1].hypot(f[2]) <= friction * f[0] * (1.0 + 1e-12) + 1e-12, "seed {seed}: outside the cone");
+            assert!(u[0] >= friction * u[1].hypot(u[2]) - 1e-8, "seed {seed}: outside the dual cone");
+            let power: f64 = (0..3).map(|row| f[row] * u[row]).sum();
+            assert!(power.abs() <= 1e-8 * largest, "seed {seed}: {power:e}");
+        }
+        assert!(balance.iter().all(|b| b.abs() <= 1e-9 * largest), "seed {seed}: {balance:?}");
+    }
+}
+
+#[test]
+fn an_offset_lets_contacts_close_so_fast() {
+    // One body above the ground, pulled down at 10: it may close at 3.
+    let mut jacobian = [[[0.0; 6]; 3]; 2];
+    jacobian[1][0][1] = 1.0;
+    let point = Point { bodies: [None, Some(0)], jacobian, cone: Cone::Edges(vec![[1.0, 0.0, 0.0]]) };
+    let problem = Gauss {
+        size: 3,
+        inverse_mass: vec![0.5; 3],
+        load: vec![0.0, -20.0, 0.0],
+        points: vec![point],
+        offset: vec![3.0],
+    };
+    let found = problem.solve();
+    assert!((found.accelerations[1] + 3.0).abs() < 1e-10, "{found:?}");
+    assert!((found.forces[0] - 14.0).abs() < 1e-9, "{found:?}");
+}
+
+#[test]
+fn a_basis_of_what_is_at_rest_leaves_the_equilibrium_solver_no_pivot() {
+    let mut rested = 0;
+    for seed in 0..80 {
+        let size = if seed % 2 == 0 { 3 } else { 6 };
+        let problem = random(seed, size, 4, 40, None);
+        let found = problem.solve();
+        if found.end != End::AtRest {
+            continue;
+        }
+        rested += 1;
+        let basis = problem.basis(&found.forces, |_| false).expect("forces of least cost");
+        let (starts, rows, values) = generators(&problem);
+        let columns = Columns::new(problem.load.len(), &starts, &rows, &values).unwrap();
+        let loads: Vec<f64> = problem.load.iter().map(|load| -load).collect();
+        let mut solver = ConeSolver::new(columns, &loads, &vec![10.0; loads.len()]).unwrap();
+        solver.add_rows(&(0..loads.len()).collect::<Vec<_>>());
+        solver.start_from(basis.iter().copied());
+        assert_eq!(solver.solve(), Membership::Inside, "seed {seed}");
+        assert_eq!((solver.counts().pivots, basis.len()), (0, loads.len()), "seed {seed}");
+    }
+    assert!(rested > 20, "{rested} of 80 are at rest");
+}
+
+#[test]
+fn nothing_to_touch_falls_freely_and_no_body_is_no_trouble() {
+    let free = Gauss { size: 3, inverse_mass: vec![1.0; 3], load: vec![0.0, -9.81, 0.0], ..Gauss::default() };
+    assert!(free.solve().accelerations.iter().zip(&free.load).all(|(a, load)| (a - load).abs() < 1e-12));
+    assert!(Gauss { size: 6, ..Gauss::default() }.solve().accelerations.is_empty());
+}
