@@ -227,6 +227,7 @@ class Verdict:
     pivots: int
     major_cycles: int
     minor_cycles: int
+    iterations: int
     residual: float
     virtual_motion: bool
     doubt: tuple[float, float] | None
@@ -512,6 +513,7 @@ def check(
     blocks: Sequence[str] | None = None,
     method: str = "equilibrium",
     cones: tuple[int, str] | None = None,
+    round_cones: bool = False,
 ) -> Verdict: ...
 def plan(
     scene: Scene,

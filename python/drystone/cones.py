@@ -10,8 +10,11 @@ FACETS = 8
 MOST_FACETS = 1000
 """Edges of a friction cone at most: they leave out 5e-6 of the coefficient, and cost memory."""
 
+ROUND = "round"
+"""Coulomb's cone itself, which `check` knows."""
+
 CONES = ("inscribed", "circumscribed", "both")
-"""The sides of Coulomb's cone that `check` knows."""
+"""Pyramids on either side of Coulomb's cone; `check` alone knows both at once."""
 
 
 def core_cones(facets: int, cone: str, known: tuple[str, ...] = CONES[:2]) -> tuple[int, str]:

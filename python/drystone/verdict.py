@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.bearing import Explanation, NearMiss, Unsupported
-from drystone.cones import CONES, FACETS, core_cones
+from drystone.cones import CONES, FACETS, ROUND, core_cones
 from drystone.scene import Scene
 from drystone.text import shown
 
@@ -55,7 +55,7 @@ class ContactForce:
         )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Verdict:
     """The answer of `check`."""
 
@@ -88,6 +88,8 @@ class Verdict:
     """Major plus minor cycles, as in the paper's Table I."""
     major_cycles: int
     minor_cycles: int
+    iterations: int
+    """Of the interior-point method: matrices factored. Zero where pivots alone gave the answer."""
     residual: float
     """How far the computed solution is from satisfying its problem, in the problem's scale."""
     virtual_motion: bool
@@ -102,9 +104,9 @@ class Verdict:
     scene: Scene = field(repr=False)
     """The scene checked."""
     certain: bool = True
-    """Whether Coulomb's round cone has the same verdict. True in the plane and without friction,
-    and of what stands within inscribed cones or falls within circumscribed ones. False where the
-    cones' edges may have decided: see `cone` of `check`."""
+    """Whether Coulomb's round cone has the same verdict. True in the plane, without friction and
+    with round cones, and of what stands within inscribed pyramids or falls within circumscribed
+    ones. False where the pyramids' edges may have decided: see `cone` of `check`."""
 
     @classmethod
     def _of(cls, core: _core.Verdict, scene: Scene, cone: str = CONES[0]) -> Verdict:
@@ -118,6 +120,7 @@ class Verdict:
             core.pivots,
             core.major_cycles,
             core.minor_cycles,
+            core.iterations,
             core.residual,
             core.virtual_motion,
             core.doubt,
@@ -160,7 +163,10 @@ class Verdict:
         return Explanation.of(self.scene, self.names, self.falling)
 
     def __str__(self) -> str:
-        work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
+        work = counted(self.pivots, "pivot") if self.pivots or not self.iterations else ""
+        if self.iterations:
+            work += (", " if work else "") + counted(self.iterations, "iteration")
+        work += f", residual {self.residual:.1e}"
         if self.doubt is not None:
             imbalance, power = self.doubt
             return (
@@ -179,6 +185,9 @@ class Verdict:
         blocks = f"{len(self.falling)} of {counted(len(self.names), 'block')}"
         fall = f"Falls: {blocks} ({shorten(self.falling)}); {work}."
         return "\n".join([fall, *self._explanation().lines()])
+
+    def __repr__(self) -> str:
+        return f"<Verdict: {str(self).splitlines()[0]}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene, in types that JSON knows."""
@@ -210,6 +219,7 @@ class Verdict:
             "pivots": self.pivots,
             "major_cycles": self.major_cycles,
             "minor_cycles": self.minor_cycles,
+            "iterations": self.iterations,
             "residual": self.residual,
             "seconds": self.seconds,
         }
@@ -232,22 +242,25 @@ def check(
     method: str = "equilibrium",
     *,
     facets: int = FACETS,
-    cone: str = CONES[0],
+    cone: str = ROUND,
 ) -> Verdict:
     """Compute the contact forces and accelerations of `scene` at rest.
 
     `blocks` names the movable bodies of a sub-assembly; fixed bodies are always there. By default
     every body is. Raises SceneError for an unknown name or bodies that overlap.
 
-    `method` "equilibrium" looks for forces that balance the loads, and solves the complementarity
-    problem for the accelerations only if there are none; "lcp" solves it in any case, by Dantzig's
-    method. The verdict is the same; where a structure is redundant the forces may differ.
+    `method` "equilibrium" looks for forces that balance the loads: by pivots, block by block from
+    the supports, as long as these are easy to find, else by the interior-point method, which gives
+    the accelerations of what falls as well. "interior" takes the interior-point method in any case.
+    "lcp" solves the complementarity problem by Dantzig's method, as the paper does. The verdict is
+    the same; where a structure is redundant the forces may differ.
 
-    In space Coulomb's round cones are replaced by pyramids of `facets` edges. `cone` "inscribed"
-    has them within the round ones, so that a structure is never said to stand because of them;
-    "circumscribed" has them around, so that none is said to fall because of them. "both" asks the
-    inscribed ones first and, if it falls there, the circumscribed ones: `certain` is then false
-    only where the two differ. More facets narrow that gap as 1 - cos(pi / facets).
+    In space `cone` "round" takes Coulomb's cones as they are. The others are pyramids of `facets`
+    edges: "inscribed" ones lie within the round cones, so that a structure is never said to stand
+    because of them; "circumscribed" ones lie around, so that none is said to fall because of them.
+    "both" asks the inscribed ones first and, if it falls there, the circumscribed ones: `certain`
+    is then false only where the two differ. More facets narrow that gap as 1 - cos(pi / facets).
+    "lcp" knows pyramids only, and takes inscribed ones for "round".
 
     >>> import drystone as ds
     >>> verdict = ds.check(ds.scenes.column(4))
@@ -258,9 +271,11 @@ def check(
         raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
     names = None if blocks is None else list(blocks)
     scene = copy.copy(scene)  # the one checked, whatever becomes of it
-    core_cones(facets, cone, CONES)
-    inner = CONES[0] if cone == "both" else cone
-    verdict = Verdict._of(_core.check(scene._core, names, method, (facets, inner)), scene, inner)
+    core_cones(facets, cone, (ROUND, *CONES))
+    round_cone = cone == ROUND and method != "lcp"
+    inner = CONES[0] if cone in ("both", ROUND) else cone
+    core = _core.check(scene._core, names, method, (facets, inner), round_cone)
+    verdict = Verdict._of(core, scene, ROUND if round_cone else inner)
     if cone == "both" and verdict.status == "solved" and not verdict.certain:
         outer = _core.check(scene._core, names, method, (facets, CONES[1]))
         if outer.status == "solved" and not outer.stable:
@@ -271,7 +286,7 @@ def check(
 def _certain(core: _core.Verdict, scene: Scene, cone: str) -> bool:
     if core.status != "solved":
         return False
-    if scene.dimension == 2:
+    if scene.dimension == 2 or cone == ROUND:
         return True
     frictionless = scene._core.largest_friction() == 0.0
     return frictionless or core.stable == (cone == CONES[0])

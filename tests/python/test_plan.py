@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import _thread
-import threading
-
 import numpy as np
 import pytest
 
@@ -149,8 +146,8 @@ def test_an_interrupt_is_a_status() -> None:
 
 
 def falls_slowly() -> ds.Scene:
-    """A structure that falls, and whose check takes most of a second."""
-    return ds.scenes.diamond(20)
+    """A structure that falls, and whose check takes many times longer than the time limit below."""
+    return ds.scenes.diamond(90)
 
 
 @pytest.mark.parametrize("threads", [1, 2])
@@ -160,7 +157,7 @@ def test_the_check_of_the_whole_tells_and_can_be_stopped(threads: int) -> None:
     def note(*told: int) -> None:
         calls.append(told)
 
-    plan = ds.plan(falls_slowly(), time_limit=0.2, progress=note, threads=threads)
+    plan = ds.plan(falls_slowly(), time_limit=0.5, progress=note, threads=threads)
     assert (plan.status, plan.whole) == ("time_limit", None)
     assert (threads == 1) == (plan.tests == 0)  # on two, the search has begun
     assert calls
@@ -171,14 +168,6 @@ def test_the_check_of_the_whole_tells_and_can_be_stopped(threads: int) -> None:
 
     plan = ds.plan(falls_slowly(), progress=interrupt, threads=threads)
     assert (plan.status, plan.whole) == ("interrupted", None)
-
-
-def test_an_interrupt_stops_a_check() -> None:
-    timer = threading.Timer(0.2, _thread.interrupt_main)
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        ds.check(falls_slowly())
-    timer.join()
 
 
 def test_an_error_in_progress_reaches_the_caller() -> None:

@@ -55,7 +55,7 @@ def test_a_block_slides_beyond_the_angle_of_friction() -> None:
 def test_circumscribed_cones_never_let_fall_what_stands() -> None:
     # tan 42 degrees is 0.9004, beyond 0.84, and within the four-sided pyramid around its cone.
     scene = slope(42, 0.84)
-    inner = ds.check(scene, facets=4)
+    inner = ds.check(scene, facets=4, cone="inscribed")
     outer = ds.check(scene, facets=4, cone="circumscribed")
     both = ds.check(scene, facets=4, cone="both")
     assert (inner.stable, outer.stable, both.stable) == (False, True, False)
@@ -65,6 +65,16 @@ def test_circumscribed_cones_never_let_fall_what_stands() -> None:
     assert "undecided" in str(both)
     # More facets tell them apart.
     assert ds.check(scene, facets=16, cone="both").certain
+
+
+def test_round_cones_slide_at_the_angle_of_friction_whichever_way_the_slope_looks() -> None:
+    for friction in (0.1, 0.84, 1.9):
+        limit = math.degrees(math.atan(friction))
+        for facing in (0.0, 17.0, 22.5, 111.0):
+            below = ds.check(slope(limit - 1e-5, friction, facing))
+            above = ds.check(slope(limit + 1e-5, friction, facing))
+            assert (below.status, below.stable, below.certain) == ("solved", True, True)
+            assert (above.status, above.stable, above.certain) == ("solved", False, True)
 
 
 def test_frictionless_and_planar_verdicts_are_certain() -> None:
@@ -237,8 +247,9 @@ def test_everything_falls_freely_where_nothing_is_fixed() -> None:
     for k, density in enumerate((0.37, 11.0, 3.3)):
         scene.add_box(k * up, (1, 1 - 0.1 * k, 1), density=density, orientation=tilted)
     assert len(scene.contacts) == 8
-    verdict = ds.check(scene)
-    assert (verdict.status, len(verdict.falling)) == ("solved", 3)
-    assert np.allclose(verdict.accelerations[:, :3], scene.gravity, rtol=0, atol=1e-12)
-    assert np.abs(verdict.accelerations[:, 3:]).max() <= 1e-12
-    assert max(force.normal_force for force in verdict.forces) <= 1e-9
+    for cone, error in (("inscribed", 1e-12), ("round", 1e-10)):  # by pivots; by the interior point
+        verdict = ds.check(scene, cone=cone)
+        assert (verdict.status, len(verdict.falling)) == ("solved", 3)
+        assert np.allclose(verdict.accelerations[:, :3], scene.gravity, rtol=0, atol=error)
+        assert np.abs(verdict.accelerations[:, 3:]).max() <= error
+        assert max(force.normal_force for force in verdict.forces) <= 1e-9

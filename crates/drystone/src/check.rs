@@ -1,10 +1,12 @@
 //! Does it stand, with which contact forces, and if not, what falls?
 
+mod interior;
+
 use crate::{
     contact::Contact,
-    equilibrium::{accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
+    equilibrium::{Effort, accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
     error::SceneError,
-    formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, Moving},
+    formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, FrictionCone, Moving},
     judgement::{CLOSING_AS_SOLVED, Judgement, judge, moving_blocks, proves_fall},
     scene::SceneOf,
 };
@@ -33,6 +35,8 @@ pub struct Verdict {
     pub forces: Vec<(Contact, ContactForce)>,
     /// Work done.
     pub counts: Counts,
+    /// Iterations of the interior-point method: matrices factored.
+    pub iterations: usize,
     /// Residual of the complementarity problem, in its own scale.
     pub residual: f64,
     /// The accelerations are those along a virtual motion in which it falls, not those with which it begins to: the
@@ -48,19 +52,23 @@ pub struct Verdict {
 /// [`SceneError`] for overlapping blocks and unknown names.
 pub fn check<S: Assemble>(scene: &SceneOf<S>, blocks: Option<&[String]>) -> Result<Verdict, SceneError> {
     let assembly = Assembly::new(scene)?;
-    Ok(check_while(&assembly, blocks, Route::Equilibrium, &mut |_| true)?.expect("nobody stops it"))
+    Ok(check_while(&assembly, blocks, Route::Equilibrium, FrictionCone::Pyramid, &mut |_| true)?
+        .expect("nobody stops it"))
 }
 
-/// How a verdict is reached. Both routes give the same one.
+/// How a verdict is reached. All routes give the same one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Route {
-    /// Contact forces that balance the loads; accelerations by the complementarity problem only if there are none.
+    /// Contact forces that balance the loads, by pivots as long as these are no slower than the interior-point method;
+    /// accelerations only if there are none.
     Equilibrium,
-    /// The complementarity problem in any case, by Dantzig's method from scratch.
+    /// The complementarity problem in any case, by Dantzig's method from scratch; with pyramids only.
     Complementarity,
+    /// Gauss's principle in any case, by the interior-point method.
+    InteriorPoint,
 }
 
-/// [`check`] by a route of choice, unless it is stopped; None then.
+/// [`check`] by a route and with friction cones of choice, unless it is stopped; None then.
 ///
 /// # Errors
 /// [`SceneError::UnknownName`].
@@ -68,6 +76,7 @@ pub fn check_while(
     assembly: &Assembly,
     blocks: Option<&[String]>,
     route: Route,
+    cone: FrictionCone,
     go_on: &mut GoOn<'_>,
 ) -> Result<Option<Verdict>, SceneError> {
     let set = match blocks {
@@ -79,8 +88,9 @@ pub fn check_while(
         }
     };
     Ok(match route {
-        Route::Equilibrium => check_blocks_while(assembly, &set, go_on),
+        Route::Equilibrium => check_blocks_while(assembly, &set, cone, go_on),
         Route::Complementarity => complementarity_while(assembly, &set, None, Counts::default(), go_on),
+        Route::InteriorPoint => Some(interior::check(assembly, &set, cone, Counts::default())),
     })
 }
 
@@ -95,13 +105,28 @@ pub fn stands<S: Assemble>(scene: &SceneOf<S>) -> Result<bool, SceneError> {
 
 /// Checks a sub-assembly from scratch: equilibrium first, and the accelerations only if there is none.
 pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
-    check_blocks_while(assembly, blocks, &mut |_| true).expect("nobody stops it")
+    check_blocks_while(assembly, blocks, FrictionCone::Pyramid, &mut |_| true).expect("nobody stops it")
 }
 
-/// [`check_blocks`], unless it is stopped; None then.
-pub fn check_blocks_while(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<Verdict> {
-    let (found, equilibrium) = equilibrium_while(assembly, blocks, go_on)?;
-    by_equilibrium(assembly, blocks, found, &equilibrium, equilibrium.counts(), go_on)
+/// Most rows for which the complementarity problem tells the accelerations of what falls sooner than the interior-point method.
+const FEW: usize = 200;
+
+/// [`check_blocks`] with friction cones of choice, unless it is stopped; None then.
+pub fn check_blocks_while(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    cone: FrictionCone,
+    go_on: &mut GoOn<'_>,
+) -> Option<Verdict> {
+    let (found, equilibrium) = equilibrium_while(assembly, blocks, Effort::OfInteriorPoint, go_on)?;
+    let spent = equilibrium.counts();
+    match found {
+        // What stands within pyramids stands within the round cones around them.
+        Membership::Inside => Some(held(assembly, blocks, &equilibrium, spent)),
+        Membership::PivotLimit => Some(interior::check(assembly, blocks, cone, spent)),
+        _ if assembly.is_round(cone) => Some(interior::check(assembly, blocks, cone, spent)),
+        _ => by_equilibrium(assembly, blocks, found, &equilibrium, spent, go_on),
+    }
 }
 
 /// The verdict that an equilibrium solver has come to, with all its forces up to date; the accelerations of what falls are
@@ -122,10 +147,15 @@ pub(crate) fn by_equilibrium(
             let falls = moved.status == Status::Solved && !moved.stable;
             Some(if falls { moved } else { held(assembly, blocks, equilibrium, spent) })
         }
-        _ => {
-            let fell = (found == Membership::Outside).then_some(equilibrium);
-            complementarity_while(assembly, blocks, fell, spent, go_on)
+        Membership::Outside => {
+            let many = assembly.rows(blocks).len() > FEW;
+            let moved = many.then(|| interior::by_interior_point(assembly, blocks, FrictionCone::Pyramid, spent));
+            match moved {
+                Some(moved) if moved.status == Status::Solved && !moved.stable => Some(moved),
+                _ => complementarity_while(assembly, blocks, Some(equilibrium), spent, go_on),
+            }
         }
+        _ => complementarity_while(assembly, blocks, None, spent, go_on),
     }
 }
 
@@ -224,6 +254,7 @@ fn verdict(
             .map(|force| (assembly.contacts()[force.contact].clone(), force))
             .collect(),
         counts,
+        iterations: 0,
         residual,
         virtual_motion: false,
         doubt: None,

@@ -2,7 +2,10 @@
 //! none.
 
 use crate::formulate::{Assembly, BlockRows, BlockSet, Components};
-use drystone_lcp::cone::{ConeSolver, Membership};
+use drystone_lcp::{
+    cone::{ConeSolver, Membership},
+    interior::worth_of_pivots,
+};
 
 /// Asked many times, with the blocks put up so far, whether to go on.
 pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
@@ -11,21 +14,45 @@ pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
 pub(crate) fn equilibrium_while(
     assembly: &Assembly,
     blocks: &BlockSet,
+    effort: Effort,
     go_on: &mut GoOn<'_>,
 ) -> Option<(Membership, ConeSolver)> {
     let mut equilibrium = assembly.equilibrium();
     let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
-    let mut placed = 0;
-    let before = |_: &mut ConeSolver, _| {
+    let (mut placed, mut hard) = (0, false);
+    let mut before = |solver: &mut ConeSolver, _| {
+        hard = solver.is_exhausted();
         placed += 1;
-        go_on(placed - 1)
+        if effort == Effort::OfInteriorPoint {
+            solver.limit_effort(effort_of_interior_point(assembly, placed));
+        }
+        !hard && go_on(placed - 1)
     };
-    put_up(&mut equilibrium, &assembly.equilibrium_rows(), upward, before).then(|| (equilibrium.solve(), equilibrium))
+    let all_there = put_up(&mut equilibrium, &assembly.equilibrium_rows(), upward, &mut before);
+    if !all_there && !hard {
+        return None;
+    }
+    let found = if hard { Membership::PivotLimit } else { equilibrium.solve() };
+    Some((found, equilibrium))
+}
+
+/// How long pivots are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// To the end.
+    Any,
+    /// Until they take about as long as the interior-point method: [`Membership::PivotLimit`] then.
+    OfInteriorPoint,
+}
+
+/// Effort ([`ConeSolver::effort`]) beyond which the interior-point method takes less time than the pivots that follow.
+pub(crate) fn effort_of_interior_point(assembly: &Assembly, blocks: usize) -> usize {
+    worth_of_pivots(assembly.components().len(), blocks)
 }
 
 /// [`equilibrium_while`] to the end.
 pub(crate) fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
-    equilibrium_while(assembly, blocks, &mut |_| true).expect("nobody stops it")
+    equilibrium_while(assembly, blocks, Effort::Any, &mut |_| true).expect("nobody stops it")
 }
 
 /// How what a solver has just found outside falls: its certificate y has `y' G <= 0` and `y' h > 0` with `h = -F`, so that the

@@ -38,10 +38,10 @@ const CLOSING: f64 = 1e-9;
 pub(crate) const CLOSING_AS_SOLVED: f64 = 1e-6;
 
 /// The power of a motion must be above as many times its rounding bound.
-const MARGIN: f64 = 10.0;
+pub(crate) const MARGIN: f64 = 10.0;
 
 /// Rounding of a sum of some ten terms, relative to the largest.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// What is known of a sub-assembly.
 #[derive(Debug)]
@@ -96,14 +96,14 @@ pub(crate) fn moving_blocks(assembly: &Assembly, under: &Moving) -> Motion {
 /// Whether the imbalance of the forces on a block, which gives it this acceleration, is none.
 fn at_rest(assembly: &Assembly, block: usize, acceleration: &Components, f: impl Fn(usize) -> f64) -> bool {
     let severity = severity(assembly, block, acceleration);
-    severity <= AT_REST || severity <= OF_OWN_LOAD && severity <= AT_REST * largest_force(assembly, block, f)
+    let largest = || assembly.generators_on(block).iter().map(|&j| f(j)).fold(0.0, f64::max);
+    severity <= AT_REST || at_rest_under(assembly, block, severity, largest())
 }
 
-/// The largest force on a block, in its own weights.
-fn largest_force(assembly: &Assembly, block: usize, f: impl Fn(usize) -> f64) -> f64 {
-    let per_mass = assembly.inverse_mass(block)[0];
-    let largest = assembly.generators_on(block).iter().map(|&j| f(j)).fold(0.0, f64::max);
-    largest * per_mass / unit_of_acceleration(assembly)
+/// Whether a block of such a [`severity`] is at rest where the largest force on it, N, is this.
+pub(crate) fn at_rest_under(assembly: &Assembly, block: usize, severity: f64, largest: f64) -> bool {
+    let in_own_weights = largest * assembly.inverse_mass(block)[0] / unit_of_acceleration(assembly);
+    severity <= AT_REST || severity <= OF_OWN_LOAD && severity <= AT_REST * in_own_weights
 }
 
 /// Whether accelerations are a motion in which it falls; contacts may close by a share of the fastest.
@@ -140,12 +140,12 @@ pub(crate) fn proves_fall(
 }
 
 /// Largest acceleration of a point of a block, as a share of gravity (of 1 m/s^2 without gravity).
-fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
+pub(crate) fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
     speed(assembly, block, acceleration) / unit_of_acceleration(assembly)
 }
 
 /// Of the fastest point of a block, or a little less.
-fn speed(assembly: &Assembly, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
+pub(crate) fn speed(assembly: &Assembly, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
     length([x, y, z]).max(length(*turning) * assembly.body(block).radius)
 }
 

@@ -8,6 +8,8 @@ mod state;
 
 use crate::{
     check::{self, Verdict},
+    crossover::from_interior,
+    equilibrium::effort_of_interior_point,
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet},
     interrupt::or_else,
@@ -57,6 +59,8 @@ pub struct Structure {
     history: History,
     /// It fell when the solver was last asked.
     fell: bool,
+    /// Work of solvers that were given up for another.
+    earlier: Counts,
 }
 
 impl Structure {
@@ -83,6 +87,7 @@ impl Structure {
             gone: Vec::new(),
             history: History::default(),
             fell: false,
+            earlier: Counts::default(),
         }
     }
 
@@ -148,9 +153,7 @@ impl Structure {
         if self.fell && fall.carries_over(&self.new, &self.gone) {
             return Some(false);
         }
-        self.put_up();
-        let found = self.solver.decide();
-        self.fell = found == Membership::Outside;
+        let found = self.ask(ConeSolver::decide);
         match found {
             Membership::Inside => Some(true),
             Membership::Outside => Some(false),
@@ -160,6 +163,24 @@ impl Structure {
                 (verdict.status == Status::Solved).then_some(verdict.stable)
             }
         }
+    }
+
+    /// Tells the solver of the changes and asks it. Where the pivots for this would take longer than the interior-point method,
+    /// they are given up for a solver that begins where that ends.
+    fn ask(&mut self, question: impl FnOnce(&mut ConeSolver) -> Membership) -> Membership {
+        let worth = effort_of_interior_point(&self.assembly, self.blocks.len());
+        self.solver.limit_effort(self.solver.effort().saturating_add(worth));
+        self.put_up();
+        let mut found = question(&mut self.solver);
+        let hard = found == Membership::PivotLimit && self.solver.is_exhausted();
+        self.solver.limit_effort(usize::MAX);
+        if hard {
+            self.earlier = self.counts();
+            (found, self.solver) = from_interior(&self.assembly, &self.blocks);
+            self.history = History::default();
+        }
+        self.fell = found == Membership::Outside;
+        found
     }
 
     fn by_equilibrium(&self, found: Membership, spent: Counts) -> Verdict {
@@ -179,23 +200,22 @@ impl Structure {
 
     /// The same blocks, of which the solver knows nothing yet: it was stopped somewhere.
     fn begin_anew(&mut self) {
+        self.earlier = self.counts();
         self.solver = self.assembly.equilibrium();
         (self.new, self.gone) = (self.blocks.iter().collect(), Vec::new());
         (self.history, self.fell) = (History::default(), false);
     }
 
     fn judge(&mut self) -> Verdict {
-        let before = self.solver.counts();
-        self.put_up();
-        let found = self.solver.solve();
-        self.fell = found == Membership::Outside;
-        let spent = self.solver.counts() - before;
+        let before = self.counts();
+        let found = self.ask(ConeSolver::solve);
+        let spent = self.counts() - before;
         self.by_equilibrium(found, spent)
     }
 
     /// Work done so far.
     pub fn counts(&self) -> Counts {
-        self.solver.counts()
+        self.earlier + self.solver.counts()
     }
 
     /// Numbers stored in the factor.

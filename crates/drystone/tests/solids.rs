@@ -235,6 +235,7 @@ fn a_part_is_a_principal_part_in_space_too() {
             &assembly,
             Some(&set.iter().map(|b| assembly.body(b).name.clone()).collect::<Vec<_>>()),
             drystone::check::Route::Complementarity,
+            drystone::formulate::FrictionCone::Pyramid,
             &mut |_| true,
         );
         let complementarity = complementarity.unwrap().unwrap();

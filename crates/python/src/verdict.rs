@@ -3,7 +3,7 @@
 use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::interruptible};
 use drystone::{
     check::{Route, check_while},
-    formulate::Assembly,
+    formulate::{Assembly, FrictionCone},
     geometry::Numbers,
     simulate::ContactImpulse,
 };
@@ -36,6 +36,7 @@ pub struct Verdict {
     pivots: usize,
     major_cycles: usize,
     minor_cycles: usize,
+    iterations: usize,
     residual: f64,
     virtual_motion: bool,
     /// Of a borderline verdict: the least imbalance in a block's own load, and the power of the fall as a multiple of
@@ -97,6 +98,7 @@ impl Verdict {
             pivots: verdict.counts.pivots,
             major_cycles: verdict.counts.major_cycles,
             minor_cycles: verdict.counts.minor_cycles,
+            iterations: verdict.iterations,
             residual: verdict.residual,
             virtual_motion: verdict.virtual_motion,
             doubt: verdict.doubt.map(|doubt| (doubt.imbalance, doubt.power)),
@@ -106,25 +108,28 @@ impl Verdict {
 }
 
 #[pyfunction]
-#[pyo3(signature = (scene, blocks=None, method="equilibrium", cones=None))]
+#[pyo3(signature = (scene, blocks=None, method="equilibrium", cones=None, round_cones=false))]
 pub fn check(
     py: Python<'_>,
     scene: &Scene,
     blocks: Option<Vec<String>>,
     method: &str,
     cones: Option<(usize, String)>,
+    round_cones: bool,
 ) -> PyResult<Verdict> {
     let route = match method {
         "equilibrium" => Route::Equilibrium,
         "lcp" => Route::Complementarity,
+        "interior" => Route::InteriorPoint,
         other => {
-            let message = format!("unknown method \"{other}\": give \"equilibrium\" or \"lcp\"");
+            let message = format!("unknown method \"{other}\": give \"equilibrium\", \"lcp\" or \"interior\"");
             return Err(PyValueError::new_err(message));
         }
     };
+    let cone = if round_cones { FrictionCone::Round } else { FrictionCone::Pyramid };
     let start = Instant::now();
     let assembly = scene.assembly(py, cones)?;
-    let checked = interruptible(py, || check_while(&assembly, blocks.as_deref(), route, &mut |_| true))?;
+    let checked = interruptible(py, || check_while(&assembly, blocks.as_deref(), route, cone, &mut |_| true))?;
     let verdict = checked.map_err(|error| scene_error(&error))?.expect("nobody says stop");
     Verdict::new(py, &assembly, &verdict, start.elapsed())
 }

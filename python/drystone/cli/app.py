@@ -11,7 +11,7 @@ from drystone.cli.errors import InputError
 from drystone.cli.options import (
     AsJson,
     Cone,
-    ConeOrBoth,
+    ConeOfCheck,
     Engine,
     Facets,
     File,
@@ -64,8 +64,9 @@ def check(
     output: Picture = None,
     facets: Facets = 8,
     cone: Annotated[
-        ConeOrBoth, typer.Option(help="In space: cones within or around the round ones, or both.")
-    ] = ConeOrBoth.both,
+        ConeOfCheck,
+        typer.Option(help="In space: Coulomb's round cones, or pyramids within, around, or both."),
+    ] = ConeOfCheck.round,
 ) -> int:
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command

@@ -54,9 +54,10 @@ class Cone(str, Enum):
     circumscribed = "circumscribed"
 
 
-class ConeOrBoth(str, Enum):
+class ConeOfCheck(str, Enum):
     """Those of `check`."""
 
+    round = "round"
     inscribed = "inscribed"
     circumscribed = "circumscribed"
     both = "both"

@@ -1,5 +1,7 @@
 //! What is read back from the magnitudes of the generators: forces and accelerations.
 
+use crate::geometry::{dot, length};
+
 /// The force that the first body of a contact exerts on the second, newtons.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactForce {
@@ -11,6 +13,17 @@ pub struct ContactForce {
     pub tangential: f64,
     /// In world axes.
     pub force: [f64; 3],
+}
+
+/// Takes a force at a contact apart along its normal and across.
+pub(super) fn force_at(contact: usize, normal: [f64; 3], in_plane: bool, force: [f64; 3]) -> ContactForce {
+    let along = dot(force, normal);
+    let tangential = if in_plane {
+        force[1] * normal[0] - force[0] * normal[1]
+    } else {
+        length([0, 1, 2].map(|k| force[k] - along * normal[k]))
+    };
+    ContactForce { contact, normal: along, tangential, force }
 }
 
 /// Acceleration of a block in world axes; in the plane x, y and the turn about z are in use.

@@ -1,10 +1,11 @@
 //! The complete assembly's contact problem. Every sub-assembly's problem is a principal sub-problem of it.
 
 use super::{
-    answers::{Acceleration, ContactForce},
+    answers::{Acceleration, ContactForce, force_at},
     block_rows::BlockRows,
     block_set::BlockSet,
-    cones::{Cones, STEEP, cone_edges},
+    body_space::FrictionCone,
+    cones::{Bound, Cones, STEEP, cone_edges},
     generator::{Bodies, Generator, Wrench},
     part::{Assemble, Components, Part},
 };
@@ -122,8 +123,20 @@ impl Assembly {
         self.components.len() == 3
     }
 
+    /// Whether friction cones of this kind are round here: not in the plane, nor without friction.
+    pub(crate) fn is_round(&self, cone: FrictionCone) -> bool {
+        cone == FrictionCone::Round && !self.in_plane() && !self.axes.is_empty()
+    }
+
+    /// The same contacts with pyramids around their cones.
+    pub(crate) fn circumscribed(&self) -> Self {
+        let cones = Cones { bound: Bound::Circumscribed, ..self.cones };
+        let none = vec![Vec::new(); self.blocks()];
+        Self { cones, generators: Vec::new(), axes: Vec::new(), generators_on: none, ..self.clone() }.spanned()
+    }
+
     /// The directions that span a contact's friction cone: its edges, and its normal where that is of use.
-    fn directions(&self, contact: &Contact) -> Vec<[f64; 3]> {
+    pub(crate) fn directions(&self, contact: &Contact) -> Vec<[f64; 3]> {
         let [nx, ny, _] = contact.normal;
         let mut directions = match self.in_plane() {
             true => cone_edges([nx, ny], contact.friction).into_iter().map(|[x, y]| [x, y, 0.0]).collect(),
@@ -141,6 +154,11 @@ impl Assembly {
     /// The body of a movable block.
     pub fn body(&self, block: usize) -> &Part {
         &self.bodies[self.movable[block]]
+    }
+
+    /// The movable block of a body, if it moves.
+    pub(crate) fn block_of(&self, body: usize) -> Option<usize> {
+        self.movable.binary_search(&body).ok()
     }
 
     /// Index in the scene of a movable block's body.
@@ -266,6 +284,17 @@ impl Assembly {
         (mass(block) / (LIGHTEST * self.heaviest)).min(1.0)
     }
 
+    /// The column of [`Self::equilibrium`] of a contact's axis, if it has one.
+    pub(super) fn axis_column(&self, contact: usize) -> Option<usize> {
+        Some(self.generators.len() + self.axis_of[contact]?)
+    }
+
+    /// The generators of a contact, the first of which is known.
+    pub(super) fn generators_of(&self, contact: usize, first: usize) -> std::ops::Range<usize> {
+        let own = self.generators[first..].iter().take_while(|generator| generator.contact == contact);
+        first..first + own.count()
+    }
+
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.
     pub fn magnitude(&self, solver: &ConeSolver, generator: usize) -> f64 {
         let contact = self.generators[generator].contact;
@@ -386,25 +415,20 @@ impl Assembly {
     /// The force at every contact point that has a generator among `rows` (ascending).
     pub fn contact_forces(&self, rows: &[usize], f: impl Fn(usize) -> f64) -> Vec<ContactForce> {
         let mut forces: Vec<ContactForce> = Vec::with_capacity(rows.len());
+        let complete =
+            |contact: usize, force| force_at(contact, self.contacts()[contact].normal, self.in_plane(), force);
+        let mut at: Option<(usize, [f64; 3])> = None;
         for &j in rows {
             let Generator { contact, direction, .. } = self.generators[j];
-            if forces.last().is_none_or(|last| last.contact != contact) {
-                forces.push(ContactForce { contact, normal: 0.0, tangential: 0.0, force: [0.0; 3] });
-            }
-            let part = direction.map(|d| d * f(j));
-            let normal = self.contacts()[contact].normal;
-            if let Some(total) = forces.last_mut() {
-                total.normal += dot(part, normal);
-                total.tangential += part[1] * normal[0] - part[0] * normal[1];
-                (0..3).for_each(|k| total.force[k] += part[k]);
+            match &mut at {
+                Some((same, sum)) if *same == contact => (0..3).for_each(|k| sum[k] += direction[k] * f(j)),
+                other => {
+                    let new = (contact, direction.map(|d| d * f(j)));
+                    forces.extend(other.replace(new).map(|(contact, force)| complete(contact, force)));
+                }
             }
         }
-        if !self.in_plane() {
-            for force in &mut forces {
-                let normal = self.contacts()[force.contact].normal;
-                force.tangential = length([0, 1, 2].map(|k| force.force[k] - force.normal * normal[k]));
-            }
-        }
+        forces.extend(at.map(|(contact, force)| complete(contact, force)));
         forces
     }
 }

@@ -6,7 +6,7 @@ use super::search::Clock;
 use super::stability::{PlanError, StabilityTest};
 use crate::{
     check::{Verdict, check_blocks, check_blocks_while},
-    formulate::{Assembly, BlockSet},
+    formulate::{Assembly, BlockSet, FrictionCone},
     interrupt::Interrupt,
 };
 use std::{
@@ -80,7 +80,8 @@ pub(super) fn check_before_search(
             false
         }
     };
-    let whole = interrupt.run(|| check_blocks_while(assembly, &BlockSet::full(blocks), &mut go_on));
+    let whole =
+        interrupt.run(|| check_blocks_while(assembly, &BlockSet::full(blocks), FrictionCone::Pyramid, &mut go_on));
     let whole = whole.unwrap_or_else(|| {
         stopped = clock.stopped();
         None

@@ -22,6 +22,7 @@ use crate::{geometry::product, scene::SceneOf};
 use drystone_lcp::{
     Counts, LcpError, Settings, Start,
     cone::{ConeSolver, Membership},
+    interior::{End, Gauss, worth_of_pivots},
 };
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -50,7 +51,7 @@ impl<S: Moving> World<S> {
         }
         let begun = Instant::now();
         let contacts = given.problem;
-        let held = held(&self.scene, contacts, given.free, &self.inverse_mass).ok()?;
+        let held = held(&self.scene, contacts, (given.free, given.offsets), &self.inverse_mass).ok()?;
         *work = *work + held.work;
         let start = held.start?;
         let mut p = vec![0.0; contacts.len()];
@@ -110,6 +111,10 @@ impl<S: Moving> World<S> {
     }
 }
 
+/// A contact that could close at this share of the speed that a step gives to free bodies, or less, is closed: rounding of
+/// the corners of blocks whose faces are not along the axes. A tenth of what the residual of a solution may be.
+const NEGLIGIBLE: f64 = 1e-10;
+
 /// Looks for impulses that keep all bodies where they are. `free` are their velocities without contacts, `inverse_mass` is the
 /// diagonal of M^-1, zero for fixed bodies.
 ///
@@ -118,23 +123,78 @@ impl<S: Moving> World<S> {
 fn held<S: Moving>(
     scene: &SceneOf<S>,
     contacts: &VelocityLevel<S>,
-    free: &[S::Velocity],
+    (free, offsets): (&[S::Velocity], &[f64]),
     inverse_mass: &[S::Velocity],
 ) -> Result<Held, LcpError> {
     let approaches = contacts.approaches().iter().enumerate();
-    let closed = approaches.filter(|(_, approach)| approach.gap <= 0.0);
-    let rows: Vec<usize> = closed.flat_map(|(k, _)| contacts.rows(k)).collect();
+    let fastest = free.iter().flat_map(|v| v.as_ref()).fold(0.0, |most: f64, v| v.abs().max(most));
+    let is_closed = |offset: f64| offset <= NEGLIGIBLE * fastest;
+    let closed: Vec<usize> = approaches.filter(|(k, _)| is_closed(offsets[*k])).map(|(k, _)| k).collect();
+    let rows: Vec<usize> = closed.iter().flat_map(|&k| contacts.rows(k)).collect();
     let (loads, units) = loads(scene, free);
-    let mut solver = ConeSolver::new(contacts.generators(rows.iter().copied(), inverse_mass)?, &loads, &units)?;
-    let size = components::<S>();
-    for body in upward(scene) {
+    let fresh = || {
+        let mut solver = ConeSolver::new(contacts.generators(rows.iter().copied(), inverse_mass)?, &loads, &units)?;
+        solver.only_in_64_bits();
+        Ok::<_, LcpError>(solver)
+    };
+    let (mut solver, size, bodies) = (fresh()?, components::<S>(), upward(scene));
+    solver.limit_effort(worth_of_pivots(size, bodies.len()));
+    for &body in &bodies {
         solver.add_rows(&(size * body..size * (body + 1)).collect::<Vec<_>>());
         solver.decide();
     }
-    let stands = solver.solve() == Membership::Inside;
-    let bearing = rows.iter().enumerate().map(|(column, &row)| (row, solver.f(column))).filter(|(_, p)| *p > 0.0);
-    let (indices, z) = bearing.unzip();
-    Ok(Held { start: stands.then_some(Start { indices, z }), work: solver.counts() })
+    let mut found = solver.solve();
+    let (mut work, mut inner) = (solver.counts(), None);
+    if found == Membership::PivotLimit && solver.is_exhausted() {
+        solver = fresh()?;
+        inner = by_interior_point(contacts, &closed, (&loads, inverse_mass), &bodies);
+        if let Some((problem, forces)) = &inner {
+            found = from_interior(problem, forces, &bodies, &mut solver);
+            work = work + solver.counts();
+        }
+    }
+    let bearing = |(column, &row): (usize, &usize)| match (&inner, found) {
+        (_, Membership::Inside) => (row, solver.f(column)),
+        (Some((_, forces)), _) => (row, forces[column]),
+        (None, _) => (row, 0.0),
+    };
+    let stands = found == Membership::Inside || inner.is_some();
+    let (indices, z) = rows.iter().enumerate().map(bearing).filter(|(_, p)| *p > 0.0).unzip();
+    Ok(Held { start: stands.then_some(Start { indices, z }), work })
+}
+
+/// Impulses by the interior-point method, one for each row of the closed contacts, with the problem that they solve. None where it
+/// finds that something moves.
+fn by_interior_point<S: Moving>(
+    contacts: &VelocityLevel<S>,
+    closed: &[usize],
+    (loads, inverse_mass): (&[f64], &[S::Velocity]),
+    bodies: &[usize],
+) -> Option<(Gauss, Vec<f64>)> {
+    let size = components::<S>();
+    let mut problem = Gauss { size, ..Gauss::default() };
+    let mut place = vec![None; inverse_mass.len()];
+    for (k, &body) in bodies.iter().enumerate() {
+        place[body] = Some(k);
+        problem.inverse_mass.extend(inverse_mass[body].as_ref());
+        problem.load.extend(loads[size * body..][..size].iter().map(|load| -load));
+    }
+    problem.points = closed.iter().map(|&approach| contacts.point(approach, &place)).collect();
+    let found = problem.solve();
+    (found.end == End::AtRest).then_some((problem, found.forces))
+}
+
+/// What a solver says from the basis to which the interior-point method leads: fewer rows bear then, and do not depend on one
+/// another, so that later steps can begin from them. Where the pivots that remain are many it gives up.
+fn from_interior(problem: &Gauss, forces: &[f64], bodies: &[usize], solver: &mut ConeSolver) -> Membership {
+    let Some(basis) = problem.basis(forces, |_| false) else { return Membership::PivotLimit };
+    for &body in bodies {
+        solver.begin_group();
+        solver.add_rows(&(problem.size * body..problem.size * (body + 1)).collect::<Vec<_>>());
+    }
+    solver.start_from(basis);
+    solver.limit_effort(solver.effort() + worth_of_pivots(problem.size, bodies.len()));
+    solver.solve()
 }
 
 /// The movable bodies by height.

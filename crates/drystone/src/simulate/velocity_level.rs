@@ -23,7 +23,11 @@ use crate::{
     formulate::Cones,
     geometry::{Numbers, Polygon, plus_times, product},
 };
-use drystone_lcp::{LcpError, Origin, Problem, cone::Columns};
+use drystone_lcp::{
+    LcpError, Origin, Problem,
+    cone::Columns,
+    interior::{Cone, Point},
+};
 use std::ops::Range;
 
 /// Velocity of a body in the plane: m/s, m/s, rad/s.
@@ -135,6 +139,32 @@ impl<S: Moving> VelocityLevel<S> {
             indptr.push(indices.len());
         }
         Columns::new(size * inverse_mass.len(), &indptr, &indices, &data)
+    }
+
+    /// An approach as a contact point of Gauss's principle, with the edges of its cone; `place` numbers the bodies that move.
+    pub fn point(&self, approach: usize, place: &[Option<usize>]) -> Point {
+        let axes = axes::<S>();
+        let at = &self.approaches[approach];
+        let along = |side: usize, axis: usize| {
+            let mut row = [0.0; 6];
+            if axis < axes {
+                let mut unit = S::Vector::default();
+                unit.as_mut()[axis] = 1.0;
+                let wrench = wrench::<S>(&at.levers[side], &unit, [-1.0, 1.0][side]);
+                row[..components::<S>()].copy_from_slice(wrench.as_ref());
+            }
+            row
+        };
+        let in_space = |direction: &S::Vector| {
+            let mut edge = [0.0; 3];
+            edge[..axes].copy_from_slice(direction.as_ref());
+            edge
+        };
+        Point {
+            bodies: at.id.bodies.map(|body| place[body]),
+            jacobian: [0, 1].map(|side| [0, 1, 2].map(|axis| along(side, axis))),
+            cone: Cone::Edges(self.directions[self.rows(approach)].iter().map(in_space).collect()),
+        }
     }
 
     /// `A_ii`: the speed along a row's direction that a unit of its impulse gives, 1/kg.

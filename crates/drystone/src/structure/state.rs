@@ -3,12 +3,13 @@
 use super::{History, Structure};
 use crate::formulate::{Assembly, BlockSet};
 use drystone_lcp::{
+    Counts,
     cone::ConeSolver,
     sealed::{Seal, SealError},
 };
 use serde::{Deserialize, Serialize};
 
-const SEAL: Seal = Seal { kind: *b"DS-STRUC", version: 1 };
+const SEAL: Seal = Seal { kind: *b"DS-STRUC", version: 2 };
 
 /// All but the assembly, which its scene gives again.
 #[derive(Serialize, Deserialize)]
@@ -19,13 +20,14 @@ struct State {
     gone: Vec<usize>,
     history: History,
     fell: bool,
+    earlier: Counts,
 }
 
 impl Structure {
     /// The state, to go on from with [`Self::from_bytes`] and the same assembly.
     pub fn to_bytes(&self) -> Vec<u8> {
-        let Self { blocks, solver, new, gone, history, fell, .. } = self.clone();
-        SEAL.close(&State { blocks, solver, new, gone, history, fell })
+        let Self { blocks, solver, new, gone, history, fell, earlier, .. } = self.clone();
+        SEAL.close(&State { blocks, solver, new, gone, history, fell, earlier })
     }
 
     /// The structure again. The bytes are trusted once their checksum is right.
@@ -33,7 +35,7 @@ impl Structure {
     /// # Errors
     /// [`SealError`] for anything but what [`Self::to_bytes`] gave for a structure of this assembly.
     pub fn from_bytes(assembly: Assembly, bytes: &[u8]) -> Result<Self, SealError> {
-        let State { blocks, solver, new, gone, history, fell } = SEAL.open(bytes)?;
+        let State { blocks, solver, new, gone, history, fell, earlier } = SEAL.open(bytes)?;
         let fresh = Self::of(assembly);
         let size = fresh.assembly.blocks();
         let known = |block: &usize| *block < size;
@@ -44,6 +46,6 @@ impl Structure {
         if !same {
             return Err(SealError::Content("it is one of another scene".into()));
         }
-        Ok(Self { blocks, solver, new, gone, history, fell, ..fresh })
+        Ok(Self { blocks, solver, new, gone, history, fell, earlier, ..fresh })
     }
 }

@@ -1,0 +1,72 @@
+//! Verdicts by the interior-point method: forces, or the accelerations of what falls, proved by what shares nothing with it.
+
+use super::{Verdict, by_equilibrium};
+use crate::{
+    crossover::from_interior,
+    formulate::{Assembly, BlockSet, Components, Constrained, ContactForce, FrictionCone},
+    judgement::{MARGIN, severity},
+    proof::{accelerations_under, moving, power_of_fall},
+};
+use drystone_lcp::{Counts, Status, cone::Doubt, interior::End};
+
+/// The verdict of the interior-point method. Where its answer proves nothing, the equilibrium solver decides, which has more
+/// digits: on the pyramids, or on those within and around round cones, as far as these agree.
+pub(super) fn check(assembly: &Assembly, blocks: &BlockSet, cone: FrictionCone, spent: Counts) -> Verdict {
+    let found = by_interior_point(assembly, blocks, cone, spent);
+    if found.status == Status::Solved {
+        return found;
+    }
+    let within = by_pyramids(assembly, blocks, spent);
+    if within.stable || !assembly.is_round(cone) {
+        return within;
+    }
+    let around = by_pyramids(&assembly.circumscribed(), blocks, within.counts);
+    let falls = around.status == Status::Solved && !around.stable;
+    if falls { around } else { Verdict { counts: around.counts, ..found } }
+}
+
+fn by_pyramids(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
+    let (found, solver) = from_interior(assembly, blocks);
+    let counts = spent + solver.counts();
+    by_equilibrium(assembly, blocks, found, &solver, counts, &mut |_| true).expect("nobody stops it")
+}
+
+/// What the interior-point method has found: proved, or borderline.
+pub(super) fn by_interior_point(assembly: &Assembly, blocks: &BlockSet, cone: FrictionCone, spent: Counts) -> Verdict {
+    let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).solve();
+    let under = accelerations_under(assembly, blocks, &forces);
+    // Pivots come nearer to the limit, where there are as many.
+    let sure = found.end == End::AtRest || assembly.is_round(cone);
+    let stands = sure && moving(assembly, &under, &forces).is_empty();
+    let falling = if stands { Vec::new() } else { moving(assembly, &motion, &forces) };
+    let power = if stands { 0.0 } else { power_of_fall(assembly, &motion, &forces, cone) };
+    let falls = !falling.is_empty() && power > MARGIN;
+    let accelerations = if stands { under.clone() } else { motion };
+    let residual =
+        if stands { largest(assembly, &under) } else { largest(assembly, &difference(&under, &accelerations)) };
+    let bodies = |blocks: &[(usize, Components)]| blocks.iter().map(|&(block, _)| assembly.body_index(block)).collect();
+    let at = |force: ContactForce| (assembly.contacts()[force.contact].clone(), force);
+    let doubt = (!stands && !falls).then(|| Doubt { imbalance: largest(assembly, &under), power });
+    Verdict {
+        status: if doubt.is_some() { Status::Borderline } else { Status::Solved },
+        stable: stands,
+        checked: bodies(&accelerations),
+        falling: if falls { bodies(&falling) } else { Vec::new() },
+        accelerations: accelerations.iter().map(|&(block, value)| assembly.in_world(block, value)).collect(),
+        forces: forces.into_iter().map(at).collect(),
+        counts: spent,
+        iterations: found.iterations,
+        residual,
+        virtual_motion: false,
+        doubt,
+    }
+}
+
+fn difference(a: &[(usize, Components)], b: &[(usize, Components)]) -> Vec<(usize, Components)> {
+    a.iter().zip(b).map(|((block, a), (_, b))| (*block, std::array::from_fn(|k| a[k] - b[k]))).collect()
+}
+
+/// The largest of some accelerations, as a share of gravity.
+fn largest(assembly: &Assembly, accelerations: &[(usize, Components)]) -> f64 {
+    accelerations.iter().map(|(block, a)| severity(assembly, *block, a)).fold(0.0, f64::max)
+}

@@ -1,0 +1,109 @@
+//! What forces and a motion prove, computed anew from bodies and contact points: nothing here is shared with a solver.
+
+use crate::{
+    contact::Contact,
+    formulate::{Assembly, BlockSet, Components, ContactForce, FrictionCone},
+    geometry::{cross, dot, length, minus},
+    judgement::{ROUNDING, at_rest_under, severity, speed},
+};
+
+/// How fast a contact may close, relative to the fastest point.
+const CLOSING: f64 = 1e-9;
+
+/// Accelerations of blocks under contact forces, ascending.
+pub(crate) fn accelerations_under(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    forces: &[ContactForce],
+) -> Vec<(usize, Components)> {
+    let mut wrenches = vec![[0.0; 6]; assembly.blocks()];
+    for force in forces {
+        let contact = &assembly.contacts()[force.contact];
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let body = contact.bodies[side];
+            if let Some(block) = assembly.block_of(body) {
+                let wrench = assembly.bodies()[body].wrench(force.force.map(|f| sign * f), contact.point);
+                (0..6).for_each(|k| wrenches[block][k] += wrench[k]);
+            }
+        }
+    }
+    let acceleration = |block: usize| {
+        let mut acceleration = [0.0; 6];
+        let own = assembly.applied(block).iter().zip(assembly.inverse_mass(block));
+        for (&k, (load, inverse)) in assembly.components().iter().zip(own) {
+            acceleration[k] = (load + wrenches[block][k]) * inverse;
+        }
+        (block, acceleration)
+    };
+    blocks.iter().map(acceleration).collect()
+}
+
+/// The blocks that are not at rest with these accelerations, where these forces act.
+pub(crate) fn moving(
+    assembly: &Assembly,
+    accelerations: &[(usize, Components)],
+    forces: &[ContactForce],
+) -> Vec<(usize, Components)> {
+    let mut largest = vec![0.0_f64; assembly.blocks()];
+    for force in forces {
+        for body in assembly.contacts()[force.contact].bodies {
+            if let Some(block) = assembly.block_of(body) {
+                largest[block] = largest[block].max(length(force.force));
+            }
+        }
+    }
+    let moves = |&&(block, ref acceleration): &&(usize, Components)| {
+        !at_rest_under(assembly, block, severity(assembly, block, acceleration), largest[block])
+    };
+    accelerations.iter().filter(moves).copied().collect()
+}
+
+/// How far blocks fall with these accelerations: the power of the loads in them, as a multiple of what rounding, and contacts that
+/// close by rounding, could make of the forces. None at all where a contact closes.
+pub(crate) fn power_of_fall(
+    assembly: &Assembly,
+    accelerations: &[(usize, Components)],
+    forces: &[ContactForce],
+    cone: FrictionCone,
+) -> f64 {
+    let mut of = vec![None; assembly.blocks()];
+    accelerations.iter().for_each(|(block, acceleration)| of[*block] = Some(acceleration));
+    let fastest = accelerations.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(speed(assembly, *block, a)));
+    let (mut power, mut bound) = (0.0, 0.0);
+    for (block, acceleration) in accelerations {
+        for (&k, load) in assembly.components().iter().zip(assembly.applied(*block)) {
+            power += load * acceleration[k];
+            bound += ROUNDING * (load * acceleration[k]).abs();
+        }
+    }
+    for force in forces {
+        let contact = &assembly.contacts()[force.contact];
+        let (mut relative, mut size) = ([0.0; 3], 0.0);
+        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let Some(acceleration) = assembly.block_of(contact.bodies[side]).and_then(|block| of[block]) else {
+                continue;
+            };
+            let body = &assembly.bodies()[contact.bodies[side]];
+            let [x, y, z, turning @ ..] = *acceleration;
+            let turned = cross(body.in_world(turning), minus(contact.point, body.center));
+            (0..3).for_each(|k| relative[k] += sign * ([x, y, z][k] + turned[k]));
+            size += length([x, y, z]) + length(turned);
+        }
+        let closing = -opening(assembly, contact, relative, cone);
+        if closing > CLOSING * fastest {
+            return 0.0;
+        }
+        bound += length(force.force) * (ROUNDING * size + closing.max(0.0));
+    }
+    if power > 0.0 { power / bound } else { 0.0 }
+}
+
+/// The least rate of a unit force within a contact's cone in a relative motion: negative where they sink into each other.
+fn opening(assembly: &Assembly, contact: &Contact, relative: [f64; 3], cone: FrictionCone) -> f64 {
+    if !assembly.is_round(cone) {
+        return assembly.directions(contact).into_iter().map(|d| dot(d, relative)).fold(f64::INFINITY, f64::min);
+    }
+    let normal = dot(contact.normal, relative);
+    let across = length([0, 1, 2].map(|k| relative[k] - normal * contact.normal[k]));
+    (normal - contact.friction * across) / contact.friction.hypot(1.0)
+}
