@@ -1,5 +1,4 @@
 //! The methods of the paper's section VI on the planner's tests: the same verdicts as Dantzig's, and less work with reuse.
-#![allow(missing_docs)]
 
 use drystone::formulate::{Assembly, BlockSet};
 use drystone::plan::{

@@ -1,14 +1,12 @@
 //! Motion in space against answers in closed form, against the same motion in the plane, and the rules of any motion.
 
-mod motion;
-
+use crate::motion::{self, G, close, named};
 use drystone::{
     BodyOptions, Scene, SceneInSpace,
     geometry::{PoseInSpace, Solid},
     scenes,
     simulate::{Formulation, Moving, Options, Reuse, SimulationError, World},
 };
-use motion::{G, close, named};
 use rand::{Rng, SeedableRng, seq::IndexedRandom};
 use rand_pcg::Pcg64;
 

@@ -1,5 +1,4 @@
 //! The equilibrium solver behind `check` and the reuse test, where it once went wrong.
-#![allow(missing_docs)]
 
 use drystone::{check, scenes};
 

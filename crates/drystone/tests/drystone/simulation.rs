@@ -1,12 +1,10 @@
 //! Motion against answers known in closed form, and what must hold in every step: no drift, no energy gained.
 
-mod motion;
-
+use crate::motion::{G, close, named, on_ground};
 use drystone::{
     BodyOptions, Scene, scenes,
     simulate::{Options, World},
 };
-use motion::{G, close, named, on_ground};
 use std::f64::consts::TAU;
 
 fn world(scene: Scene, dt: f64) -> World {

@@ -1,6 +1,5 @@
 //! The equilibrium solver on random walks: rows come, go, and are rolled back, verdicts are asked for with and without
 //! forces, and every answer is compared with a fresh one.
-#![allow(missing_docs)]
 
 use drystone::{
     formulate::Assembly,

@@ -1,13 +1,11 @@
 //! Motion on the acceleration level: answers in closed form, agreement with the velocity level, and what happens where no
 //! forces exist.
 
-mod motion;
-
+use crate::motion::{G, close, named, on_ground};
 use drystone::{
     Scene, scenes,
     simulate::{Formulation, Options, Reuse, World},
 };
-use motion::{G, close, named, on_ground};
 
 fn options(dt: f64) -> Options {
     Options { dt, formulation: Formulation::Acceleration, ..Options::default() }
