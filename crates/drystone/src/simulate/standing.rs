@@ -82,6 +82,24 @@ impl<S: Moving> World<S> {
         })
     }
 
+    /// A start of the step's problem from nothing: the rows that bear in the answer of the interior-point method, with their
+    /// impulses. None where that has no answer, or for so few rows that pivots are sooner there.
+    pub(super) fn start_from_interior(&self, given: &Given<'_, S>, assumed: &[f64]) -> Option<Start> {
+        if given.problem.len() <= FEW {
+            return None;
+        }
+        let bodies: Vec<usize> = (0..self.scene.bodies().len()).filter(|&i| !self.scene.bodies()[i].fixed).collect();
+        let all: Vec<usize> = (0..given.problem.approaches().len()).collect();
+        let (loads, _) = loads(&self.scene, given.free);
+        let mut problem = given.problem.gauss(&all, (&loads, &self.inverse_mass), &bodies);
+        problem.offset = given.problem.lifts(given.offsets, assumed);
+        let found = problem.solve();
+        let least = NOTHING * problem.load.iter().fold(0.0, |largest: f64, load| largest.max(load.abs()));
+        let bears = |(row, p): &(usize, f64)| found.bearing[*row] && *p > least;
+        let (indices, z) = found.forces.iter().copied().enumerate().filter(bears).unzip();
+        (found.end == End::Converged).then_some(Start { indices, z })
+    }
+
     /// The natural residual of the step's problem, in its own scale (`drystone_lcp::solution::residual`): w is what the contacts
     /// have after the impulses.
     fn residual(&self, given: &Given<'_, S>, velocities: &[S::Velocity], p: &[f64]) -> f64 {
@@ -110,6 +128,12 @@ impl<S: Moving> World<S> {
         }
     }
 }
+
+/// An impulse below this share of the largest that a step's loads give is what the gap has left.
+const NOTHING: f64 = 1e-10;
+
+/// Most rows of a first step for which pivots from nothing are as good.
+const FEW: usize = 200;
 
 /// A contact that could close at this share of the speed that a step gives to free bodies, or less, is closed: rounding of
 /// the corners of blocks whose faces are not along the axes. A tenth of what the residual of a solution may be.
@@ -171,15 +195,7 @@ fn by_interior_point<S: Moving>(
     (loads, inverse_mass): (&[f64], &[S::Velocity]),
     bodies: &[usize],
 ) -> Option<(Gauss, Vec<f64>)> {
-    let size = components::<S>();
-    let mut problem = Gauss { size, ..Gauss::default() };
-    let mut place = vec![None; inverse_mass.len()];
-    for (k, &body) in bodies.iter().enumerate() {
-        place[body] = Some(k);
-        problem.inverse_mass.extend(inverse_mass[body].as_ref());
-        problem.load.extend(loads[size * body..][..size].iter().map(|load| -load));
-    }
-    problem.points = closed.iter().map(|&approach| contacts.point(approach, &place)).collect();
+    let problem = contacts.gauss(closed, (loads, inverse_mass), bodies);
     let found = problem.solve();
     (found.end == End::AtRest).then_some((problem, found.forces))
 }

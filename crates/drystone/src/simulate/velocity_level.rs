@@ -26,7 +26,7 @@ use crate::{
 use drystone_lcp::{
     LcpError, Origin, Problem,
     cone::Columns,
-    interior::{Cone, Point},
+    interior::{Cone, Gauss, Point},
 };
 use std::ops::Range;
 
@@ -141,8 +141,37 @@ impl<S: Moving> VelocityLevel<S> {
         Columns::new(size * inverse_mass.len(), &indptr, &indices, &data)
     }
 
+    /// Gauss's principle for some approaches, with velocities in place of accelerations: `loads` is `-M v*` of every body,
+    /// `bodies` are those that move.
+    pub fn gauss(
+        &self,
+        approaches: &[usize],
+        (loads, inverse_mass): (&[f64], &[S::Velocity]),
+        bodies: &[usize],
+    ) -> Gauss {
+        let size = components::<S>();
+        let mut problem = Gauss { size, ..Gauss::default() };
+        let mut place = vec![None; inverse_mass.len()];
+        for (k, &body) in bodies.iter().enumerate() {
+            place[body] = Some(k);
+            problem.inverse_mass.extend(inverse_mass[body].as_ref());
+            problem.load.extend(loads[size * body..][..size].iter().map(|load| -load));
+        }
+        problem.points = approaches.iter().map(|&approach| self.point(approach, &place)).collect();
+        problem
+    }
+
+    /// What each row of w has beside `G' v`: offsets `c` and sliding speeds `s`, one an approach, at the cone's edges.
+    pub fn lifts(&self, c: &[f64], s: &[f64]) -> Vec<f64> {
+        let lift = |k: usize| {
+            let [friction, length] = self.edges[k];
+            std::iter::repeat_n((c[k] + friction * s[k]) / length, self.rows(k).len())
+        };
+        (0..self.approaches.len()).flat_map(lift).collect()
+    }
+
     /// An approach as a contact point of Gauss's principle, with the edges of its cone; `place` numbers the bodies that move.
-    pub fn point(&self, approach: usize, place: &[Option<usize>]) -> Point {
+    fn point(&self, approach: usize, place: &[Option<usize>]) -> Point {
         let axes = axes::<S>();
         let at = &self.approaches[approach];
         let along = |side: usize, axis: usize| {

@@ -86,3 +86,13 @@ fn a_world_at_rest_begins_from_the_interior() {
     assert!(record.counts.pivots < 600, "{} pivots", record.counts.pivots);
     assert!(record.motionless.iter().all(|&still| still));
 }
+
+#[test]
+fn a_world_that_falls_at_once_begins_from_what_bears() {
+    // From nothing the first step took 2,915 pivots.
+    let mut world = World::new(leaning(10, 0.6), Options::default()).unwrap();
+    let record = world.step().unwrap();
+    assert!(record.counts.pivots < 700, "{} pivots", record.counts.pivots);
+    assert!(record.residual < 1e-9 && record.friction_error < 1e-6, "{record:?}");
+    assert!(record.motionless.contains(&false));
+}
