@@ -9,13 +9,19 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+from scipy.optimize import lsq_linear
 
 import drystone as ds
 
 BENCHMARKS = str(Path(__file__).parents[2] / "benchmarks")
 sys.path.insert(0, BENCHMARKS)
 
+import cold  # noqa: E402
+import cold_peers  # noqa: E402
+import cold_results  # noqa: E402
+import cold_scenes  # noqa: E402
 import measure  # noqa: E402
 import reference  # noqa: E402
 from assembly import Assembly  # noqa: E402
@@ -121,3 +127,89 @@ def test_wrong_missing_and_inaccurate_answers_are_counted() -> None:
     assert (result.checked, result.wrong) == (2, 1)
     assert (result.inaccurate, result.residual) == (1, 1e-3)
     assert not result.right
+
+
+TINY = {
+    "a wall": (lambda: cold_scenes.wall(3, 0.2), "stands"),
+    "a wall that slides": (lambda: cold_scenes.wall(3, 0.6), "falls"),
+    "a wall in space": (lambda: ds.scenes.brick_wall(2, 2), "stands"),
+    "a brick that tips over": (lambda: cold_scenes.loose_brick(1), "falls"),
+}
+
+
+@pytest.fixture
+def once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is repeated for the sake of its time."""
+    monkeypatch.setattr(cold, "REPEATS", 1)
+    monkeypatch.setattr(cold, "MOST_REPEATS", 1)
+
+
+@pytest.mark.usefixtures("once")
+@pytest.mark.parametrize("name", TINY)
+def test_verdicts_from_nothing_agree_with_least_squares(name: str) -> None:
+    """Gauss's principle is the dual of least squares with forces >= 0: u = target + J' f."""
+    build, right = TINY[name]
+    scene = build()
+    gauss = cold_peers.Gauss.of(scene)
+    wrenches = gauss.pyramids.T.toarray()
+    found = lsq_linear(wrenches, -gauss.target, (0, np.inf), method="bvls", tol=1e-15)
+    u = gauss.target + wrenches @ found.x
+    assert gauss.stands(u) == (right == "stands")
+    row = cold.measure(cold_scenes.Family("tiny", {}), name, build, [])
+    said = row.answers[cold_results.PYRAMIDS if scene.dimension == 3 else cold_results.CHECK]
+    assert row.agree
+    assert said.verdict == right
+    assert said.fastest == pytest.approx(gauss.fastest(u, scene.dimension), abs=1e-7)
+    assert {line["verdict"] for line in row.lines()} == {right}
+    assert row.points == len(ds.check(scene).forces)
+
+
+@pytest.mark.usefixtures("once")
+@pytest.mark.parametrize("name", TINY)
+@pytest.mark.parametrize("peer", cold_peers.PEERS, ids=lambda peer: peer.name)
+def test_public_interior_points_agree(peer: cold_peers.Peer, name: str) -> None:
+    pytest.importorskip(peer.package)
+    build, right = TINY[name]
+    row = cold.measure(cold_scenes.Family("tiny", {}), name, build, [peer])
+    error = np.sqrt(2 * cold_peers.TOLERANCE) * cold_peers.Gauss.of(build()).unit.max()
+    assert row.agree
+    if peer.name in row.answers:
+        on_pyramids = row.answers.get(cold_results.PYRAMIDS)
+        ours = row.answers[cold_results.CHECK] if peer.round or on_pyramids is None else on_pyramids
+        assert row.answers[peer.name].verdict == right
+        assert row.answers[peer.name].fastest == pytest.approx(ours.fastest, abs=error)
+
+
+def test_round_cones_go_through_the_edges_of_the_pyramids() -> None:
+    """Edge k of a contact point is its axis and a radius at k times 45 degrees."""
+    scene = ds.scenes.brick_wall(2, 2)
+    gauss = cold_peers.Gauss.of(scene)
+    assert gauss.round is not None
+    angles = np.pi / 4 * np.arange(8)
+    circle = np.stack([np.ones(8), np.cos(angles), np.sin(angles)], axis=1)
+    edges = gauss.pyramids.toarray().reshape(-1, 8, len(gauss.target))
+    for edge, axes in zip(edges, gauss.round.toarray().reshape(len(edges), 3, -1), strict=True):
+        through = circle @ axes
+        through /= np.linalg.norm(through, axis=1)[:, None]
+        assert through == pytest.approx(edge, abs=1e-12)
+
+
+@pytest.mark.usefixtures("once")
+def test_peers_stop_after_a_size_beyond_the_cap(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The exponent is that of the sizes with an answer."""
+    slow = cold_peers.Peer("slow", "numpy", lambda gauss: cold_peers.Solution(9, 1, None, "late"))
+    build = TINY["a wall"][0]
+    family = cold_scenes.Family("tiny", {"one": build, "another": build})
+    rows = list(cold.run([family], False, 8.0, [slow]))
+    assert ["slow" in row.answers for row in rows] == [True, False]
+    assert np.isnan(rows[0].ratio("slow"))
+    assert rows[0].ratio("drystone") == 1
+
+
+def test_exponents_are_of_time_in_points() -> None:
+    answers = [cold_results.Answer("drystone", "1", "stands", "", 9, 0, t, 0.0) for t in (1.0, 8.0)]
+    rows = [
+        cold_results.Row("tiny", name, 1, points, 0.0, 0.0, {"drystone": answer})
+        for name, points, answer in zip("ab", (10, 40), answers, strict=True)
+    ]
+    assert cold_results.exponents(rows, ["drystone"])["tiny"]["drystone"] == pytest.approx(1.5)

@@ -356,7 +356,9 @@ def test_an_interrupt_keeps_what_is_finished(tmp_path: Path) -> None:
     out, err = process.communicate(timeout=MANY_TIMES_ENOUGH)
     answers, interrupted = out.split()
     assert (process.returncode, err, interrupted) == (0, "", "True")
-    assert 3 <= int(answers) == len(read_index(tmp_path)) <= FEW
+    # A plan that ended while the interrupt came is kept, but not handed on any more: one a worker.
+    kept = len(read_index(tmp_path))
+    assert 3 <= int(answers) <= kept <= min(int(answers) + 2, FEW)
     resumed(tmp_path, slow_scenes(10))
 
 

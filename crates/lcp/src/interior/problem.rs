@@ -96,7 +96,7 @@ impl Gauss {
 /// beyond which this method takes less time than the pivots that follow. A number of operations, so that no clock decides.
 /// Measured: docs/theory/interior-point.md.
 pub fn worth_of_pivots(size: usize, bodies: usize) -> usize {
-    let of_a_body = if size == 3 { 10_000 } else { 50_000 };
+    let of_a_body = if size == 3 { 2_000 } else { 50_000 };
     of_a_body * (bodies + 16)
 }
 
