@@ -157,7 +157,7 @@ def test_the_check_of_the_whole_tells_and_can_be_stopped(threads: int) -> None:
     def note(*told: int) -> None:
         calls.append(told)
 
-    plan = ds.plan(falls_slowly(), time_limit=1.5, progress=note, threads=threads)
+    plan = ds.plan(falls_slowly(), time_limit=3.0, progress=note, threads=threads)
     assert (plan.status, plan.whole) == ("time_limit", None)
     assert (threads == 1) == (plan.tests == 0)  # on two, the search has begun
     assert calls
