@@ -23,9 +23,8 @@ use fall::Fall;
 use history::History;
 use putting_up::PuttingUp;
 
-/// Changes of so few blocks are worth more pivots than the same blocks from nothing: as many times more, which takes about
-/// as long as the interior-point method itself. What is known of the blocks that stay is lost with it.
-const FEW: usize = 16;
+/// A change is worth so many times more pivots than a verdict from nothing, about as long as the interior-point method itself
+/// takes: what is kept is lost with it.
 const OF_A_CHANGE: usize = 8;
 
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
@@ -173,8 +172,7 @@ impl Structure {
     /// Tells the solver of the changes and asks it. Where the pivots for this would take longer than the interior-point method,
     /// they are given up for a solver that begins where that ends.
     fn ask(&mut self, question: impl FnOnce(&mut ConeSolver) -> Membership) -> Membership {
-        let warm = if self.pending() <= FEW { OF_A_CHANGE } else { 1 };
-        let worth = warm * effort_of_interior_point(&self.assembly, self.blocks.len());
+        let worth = OF_A_CHANGE * effort_of_interior_point(&self.assembly, self.blocks.len());
         self.solver.limit_effort(self.solver.effort().saturating_add(worth));
         self.put_up();
         let mut found = question(&mut self.solver);

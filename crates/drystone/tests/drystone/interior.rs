@@ -65,7 +65,7 @@ fn a_structure_goes_on_from_the_interior() {
     (0..structure.assembly().blocks()).for_each(|block| structure.add(block));
     assert_eq!(structure.stands(), Some(true));
     let pivots = structure.counts().pivots;
-    assert!(pivots < 500, "{pivots}");
+    assert!(pivots < 1000, "{pivots}");
     // In any order, the answers are those of a check from nothing.
     for block in [104, 50, 99, 7, 51, 103] {
         structure.remove(block);
