@@ -21,8 +21,7 @@ pub(crate) fn from_interior(assembly: &Assembly, blocks: &BlockSet) -> (Membersh
     let Constrained { motion, forces, found } = space.solve();
     let (mut solver, rows) = (assembly.equilibrium(), assembly.equilibrium_rows());
     for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {
-        solver.begin_group();
-        solver.add_rows(rows.of(block));
+        solver.add_group(rows.of(block));
     }
     if found.end == End::AtRest {
         solver.start_from(space.basis(&found).unwrap_or_default());

@@ -32,7 +32,7 @@ const DOUBTFUL: f64 = 1e-4;
 
 /// How fast a contact may close in a motion and count as at rest, relative to the fastest point: rounding of the forces, by
 /// which accelerations are computed.
-const CLOSING: f64 = 1e-9;
+pub(crate) const CLOSING: f64 = 1e-9;
 
 /// The same of accelerations that need prove nothing, since a certificate does: what the complementarity solver's tolerance leaves.
 pub(crate) const CLOSING_AS_SOLVED: f64 = 1e-6;

@@ -4,11 +4,8 @@ use crate::{
     contact::Contact,
     formulate::{Assembly, BlockSet, Components, ContactForce, FrictionCone},
     geometry::{cross, dot, length, minus},
-    judgement::{ROUNDING, at_rest_under, severity, speed},
+    judgement::{CLOSING, ROUNDING, at_rest_under, severity, speed},
 };
-
-/// How fast a contact may close, relative to the fastest point.
-const CLOSING: f64 = 1e-9;
 
 /// Accelerations of blocks under contact forces, ascending.
 pub(crate) fn accelerations_under(

@@ -41,12 +41,12 @@ pub(super) fn by_interior_point(assembly: &Assembly, blocks: &BlockSet, cone: Fr
     let falling = if stands { Vec::new() } else { moving(assembly, &motion, &forces) };
     let power = if stands { 0.0 } else { power_of_fall(assembly, &motion, &forces, cone) };
     let falls = !falling.is_empty() && power > MARGIN;
-    let accelerations = if stands { under.clone() } else { motion };
-    let residual =
-        if stands { largest(assembly, &under) } else { largest(assembly, &difference(&under, &accelerations)) };
+    let imbalance = largest(assembly, &under);
+    let residual = if stands { imbalance } else { largest(assembly, &difference(&under, &motion)) };
+    let accelerations = if stands { under } else { motion };
     let bodies = |blocks: &[(usize, Components)]| blocks.iter().map(|&(block, _)| assembly.body_index(block)).collect();
     let at = |force: ContactForce| (assembly.contacts()[force.contact].clone(), force);
-    let doubt = (!stands && !falls).then(|| Doubt { imbalance: largest(assembly, &under), power });
+    let doubt = (!stands && !falls).then_some(Doubt { imbalance, power });
     Verdict {
         status: if doubt.is_some() { Status::Borderline } else { Status::Solved },
         stable: stands,

@@ -7,10 +7,10 @@ use crate::{
     geometry::{cross, dot},
 };
 use drystone_lcp::interior::{Cone, Found, Gauss, Point};
-use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Which friction cones a question is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FrictionCone {
     /// Hulls of finitely many edges: the generators. In the plane these are Coulomb's own.
     #[default]
@@ -34,8 +34,10 @@ struct Touched {
     contact: usize,
     /// The directions of its rows.
     frame: [[f64; 3]; 3],
-    /// First generator of the contact.
-    generator: usize,
+    /// Generators of the contact: the edges of its cone.
+    generators: Range<usize>,
+    /// The column of [`Assembly::equilibrium`] of its axis, if that is one of its edges here.
+    axis: Option<usize>,
 }
 
 /// What the method found, in the terms of an assembly.
@@ -79,20 +81,15 @@ impl Assembly {
                 continue; // one of the two is not there
             }
             let frame = self.frame(contact);
+            let axis = self.axis_column(index).filter(|_| axes);
             let cone = match cone {
                 FrictionCone::Round if contact.friction > 0.0 && !self.in_plane() => {
                     Cone::Round { friction: contact.friction }
                 }
                 _ => {
                     let along = |direction: [f64; 3]| frame.map(|axis| dot(axis, direction));
-                    let axis = (axes && contact.friction > 0.0).then_some([1.0, 0.0, 0.0]);
-                    Cone::Edges(
-                        self.generators()[own.clone()]
-                            .iter()
-                            .map(|generator| along(generator.direction))
-                            .chain(axis)
-                            .collect(),
-                    )
+                    let edges = self.generators()[own.clone()].iter().map(|generator| along(generator.direction));
+                    Cone::Edges(edges.chain(axis.map(|_| [1.0, 0.0, 0.0])).collect())
                 }
             };
             let jacobian = [0, 1].map(|side| {
@@ -106,7 +103,7 @@ impl Assembly {
                 })
             });
             problem.points.push(Point { bodies: there.map(Option::flatten), jacobian, cone });
-            points.push(Touched { contact: index, frame, generator: own.start });
+            points.push(Touched { contact: index, frame, generators: own, axis });
         }
         BodySpace { assembly: self, blocks: present, points, problem }
     }
@@ -157,15 +154,8 @@ impl BodySpace<'_> {
     /// A basis of columns of [`Assembly::equilibrium`] that hold the blocks, where [`Self::solve`] has found forces that do. None
     /// if the method does not come to an end.
     pub fn basis(&self, found: &Found) -> Option<Vec<usize>> {
-        let columns = self.columns();
-        let axis = self.assembly.generators().len();
-        let mut last = vec![usize::MAX; self.points.len()];
-        let mut next = 0;
-        for (last, point) in last.iter_mut().zip(&self.problem.points) {
-            next += point.cone.unknowns();
-            *last = next - 1;
-        }
-        let basis = self.problem.basis(&found.forces, |point| columns[last[point]] >= axis)?;
+        let basis = self.problem.basis(&found.forces, |point| self.points[point].axis.is_some())?;
+        let columns: Vec<usize> = self.columns().collect();
         Some(basis.into_iter().map(|unknown| columns[unknown]).collect())
     }
 
@@ -176,15 +166,7 @@ impl BodySpace<'_> {
     }
 
     /// Column of [`Assembly::equilibrium`] of every unknown; with pyramids only.
-    fn columns(&self) -> Vec<usize> {
-        let mut columns = Vec::new();
-        for (touched, point) in self.points.iter().zip(&self.problem.points) {
-            let axis = self.assembly.axis_column(touched.contact);
-            let edges = self.assembly.generators_of(touched.contact, touched.generator);
-            let with_axis = point.cone.unknowns() > edges.len();
-            columns.extend(edges);
-            columns.extend(axis.filter(|_| with_axis));
-        }
-        columns
+    fn columns(&self) -> impl Iterator<Item = usize> {
+        self.points.iter().flat_map(|point| point.generators.clone().chain(point.axis))
     }
 }

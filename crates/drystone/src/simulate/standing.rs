@@ -151,7 +151,7 @@ fn held<S: Moving>(
     inverse_mass: &[S::Velocity],
 ) -> Result<Held, LcpError> {
     let approaches = contacts.approaches().iter().enumerate();
-    let fastest = free.iter().flat_map(|v| v.as_ref()).fold(0.0, |most: f64, v| v.abs().max(most));
+    let fastest = fastest::<S>(free);
     let is_closed = |offset: f64| offset <= NEGLIGIBLE * fastest;
     let closed: Vec<usize> = approaches.filter(|(k, _)| is_closed(offsets[*k])).map(|(k, _)| k).collect();
     let rows: Vec<usize> = closed.iter().flat_map(|&k| contacts.rows(k)).collect();
@@ -205,12 +205,16 @@ fn by_interior_point<S: Moving>(
 fn from_interior(problem: &Gauss, forces: &[f64], bodies: &[usize], solver: &mut ConeSolver) -> Membership {
     let Some(basis) = problem.basis(forces, |_| false) else { return Membership::PivotLimit };
     for &body in bodies {
-        solver.begin_group();
-        solver.add_rows(&(problem.size * body..problem.size * (body + 1)).collect::<Vec<_>>());
+        solver.add_group(&(problem.size * body..problem.size * (body + 1)).collect::<Vec<_>>());
     }
     solver.start_from(basis);
     solver.limit_effort(solver.effort() + worth_of_pivots(problem.size, bodies.len()));
     solver.solve()
+}
+
+/// The largest component of some velocities.
+fn fastest<S: Moving>(velocities: &[S::Velocity]) -> f64 {
+    velocities.iter().flat_map(|v| v.as_ref()).fold(0.0, |most: f64, v| v.abs().max(most))
 }
 
 /// The movable bodies by height.
@@ -225,7 +229,7 @@ fn upward<S: Moving>(scene: &SceneOf<S>) -> Vec<usize> {
 /// `-M v*`, and the unit in which each entry's imbalance is measured: what gives the body the largest speed of all, at its
 /// centre of mass or at its radius of gyration.
 fn loads<S: Moving>(scene: &SceneOf<S>, free: &[S::Velocity]) -> (Vec<f64>, Vec<f64>) {
-    let fastest = free.iter().flat_map(|v| v.as_ref()).fold(0.0, |most: f64, v| v.abs().max(most));
+    let fastest = fastest::<S>(free);
     let speed = if fastest > 0.0 { fastest } else { 1.0 };
     let (mut loads, mut units) = (Vec::new(), Vec::new());
     for (body, free) in scene.bodies().iter().zip(free) {

@@ -349,9 +349,10 @@ impl ConeSolver {
         }
     }
 
-    /// The next rows start a group of their own, as those do that come after an answer: rows of one block belong together.
-    pub fn begin_group(&mut self) {
+    /// [`Self::add_rows`] as a group of their own, as those are that come after an answer: rows of one block belong together.
+    pub fn add_group(&mut self, rows: &[usize]) {
         self.group_closed = true;
+        self.add_rows(rows);
     }
 
     /// Effort so far: numbers of the factor read, and columns priced.

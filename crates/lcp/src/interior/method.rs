@@ -43,8 +43,6 @@ const GAP: f64 = 1e-24;
 const RESIDUAL: f64 = 1e-14;
 /// What the forces may leave of a body's own load: a hundredth of what counts as rest.
 const REST: f64 = 1e-11;
-/// Gap from which on forces that are positive in the end are told from those that are not.
-const TOLD_APART: f64 = 1e-6;
 /// Iterations are some 10 to 25; ten times as many say that there is no progress.
 const MOST: usize = 200;
 /// An iteration that leaves more than this share of gap and residual is none, and how many of them in a row are the end.
@@ -88,9 +86,8 @@ struct Step<const B: usize> {
     correction: Vec<f64>,
     left: Vec<[f64; B]>,
     other: Vec<f64>,
-    mass: f64,
-    /// Weight of a proximal term on the motion: in place of masses, and where the matrix would have no factor.
-    proximal: f64,
+    /// Weight of the motion itself in the matrix: masses, and a proximal term in their place or where there would be no factor.
+    diagonal: f64,
 }
 
 /// Residuals of (2) at a point.
@@ -124,18 +121,11 @@ impl<const B: usize, const D: usize> Interior<B, D> {
         Self { f, s: cost.clone(), cost, mass: 0.0, ..Self::new(problem) }
     }
 
-    /// The forces that are positive in the end rather than dear. None if it does not come to an end.
-    pub fn basis(self) -> Option<Vec<usize>> {
-        let found = self.solve();
-        let bearing = || (0..found.bearing.len()).filter(|&j| found.bearing[j]).collect();
-        (found.gap <= TOLD_APART).then(bearing)
-    }
-
     pub fn solve(mut self) -> Found {
         let Some(mut matrix) = BodyMatrix::new(&self.problem) else {
             return self.found(End::OutOfMemory, 0, f64::INFINITY);
         };
-        let mut step = Step::new(self.a.len(), self.f.len(), self.mass);
+        let mut step = Step::new(self.a.len(), self.f.len());
         let (mut best, mut since, mut residuals) = (f64::INFINITY, 0, self.residuals());
         for iteration in 0..MOST {
             let merit = residuals.merit();
@@ -145,12 +135,14 @@ impl<const B: usize, const D: usize> Interior<B, D> {
             if merit <= 1.0 {
                 return self.found(End::Converged, iteration, residuals.gap);
             }
-            let late = residuals.gap < LATE;
-            since = if merit < if late { LATE_PROGRESS } else { PROGRESS } * best { 0 } else { since + 1 };
+            let (progress, patience, end) = match residuals.gap < LATE {
+                true => (LATE_PROGRESS, LATE_PATIENCE, End::Converged),
+                false => (PROGRESS, PATIENCE, End::Stalled),
+            };
+            since = if merit < progress * best { 0 } else { since + 1 };
             best = best.min(merit);
-            if since > if late { LATE_PATIENCE } else { PATIENCE } || !self.iterate(&mut matrix, &mut step, &residuals)
-            {
-                return self.found(if late { End::Converged } else { End::Stalled }, iteration, residuals.gap);
+            if since > patience || !self.iterate(&mut matrix, &mut step, &residuals) {
+                return self.found(end, iteration, residuals.gap);
             }
             residuals = self.residuals();
         }
@@ -163,15 +155,15 @@ impl<const B: usize, const D: usize> Interior<B, D> {
         let [least, most] = PROXIMAL_BOUNDS;
         let delta = (PROXIMAL * residuals.gap).clamp(least, most);
         let scaling = Scaling::at(problem, &self.f, &self.s, delta);
-        way.proximal = if self.mass > 0.0 { 0.0 } else { PROXIMAL_MASS };
-        matrix.reset(self.mass + way.proximal);
+        let diagonal = if self.mass > 0.0 { self.mass } else { PROXIMAL_MASS };
+        matrix.reset(diagonal);
         let mut index = 0;
         scaling.weights(problem, |point, weight| {
             matrix.add(index, point, &weight);
             index += 1;
         });
         let Some(more) = matrix.factor() else { return false };
-        way.proximal += more;
+        way.diagonal = diagonal + more;
         way.correction.fill(0.0);
         way.newton(problem, matrix, &scaling, residuals, &self.s, 0);
         let length = step(problem, &self.f, &way.df).min(step(problem, &self.s, &way.ds));
@@ -237,11 +229,11 @@ impl<const B: usize> Residuals<B> {
 }
 
 impl<const B: usize> Step<B> {
-    fn new(bodies: usize, forces: usize, mass: f64) -> Self {
+    fn new(bodies: usize, forces: usize) -> Self {
         let (rows, columns) = (|| vec![[0.0; B]; bodies], || vec![0.0; forces]);
         let (da, left) = (rows(), rows());
         let (df, ds, moved, correction, other) = (columns(), columns(), columns(), columns(), columns());
-        Self { da, df, ds, moved, correction, left, other, mass, proximal: 0.0 }
+        Self { da, df, ds, moved, correction, left, other, diagonal: 0.0 }
     }
 
     /// The Newton step of (2) for the product that `self.correction` asks for.
@@ -267,7 +259,7 @@ impl<const B: usize> Step<B> {
         let scale = self.df.iter().fold(1.0_f64, |largest, df| largest.max(df.abs()));
         for _ in 0..refinements {
             for ((left, balance), da) in self.left.iter_mut().zip(&residuals.balance).zip(&self.da) {
-                *left = std::array::from_fn(|k| -balance[k] - (self.mass + self.proximal) * da[k]);
+                *left = std::array::from_fn(|k| -balance[k] - self.diagonal * da[k]);
             }
             problem.add_wrenches(&self.df, 1.0, &mut self.left);
             if largest(&self.left) <= REFINED * scale {

@@ -30,6 +30,8 @@ mod method;
 mod problem;
 mod scaled;
 mod scaling;
+mod solving;
 
 pub use method::{End, Found};
-pub use problem::{Cone, Gauss, Point, worth_of_pivots};
+pub use problem::{Cone, Gauss, Point};
+pub use solving::worth_of_pivots;

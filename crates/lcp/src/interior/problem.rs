@@ -1,10 +1,5 @@
 //! What is solved: bodies with masses and loads, and contact points between them.
 
-use super::{
-    method::{Found, Interior},
-    scaled::Scaled,
-};
-
 /// Gauss's principle for bodies of 3 (in the plane) or 6 unknowns.
 #[derive(Debug, Clone, Default)]
 pub struct Gauss {
@@ -55,53 +50,3 @@ impl Cone {
         }
     }
 }
-
-impl Gauss {
-    /// Solves it from nothing.
-    ///
-    /// # Panics
-    /// If bodies have neither 3 nor 6 unknowns.
-    pub fn solve(&self) -> Found {
-        match self.size {
-            3 => Interior::<3, 2>::new(Scaled::new(self)).solve(),
-            6 => Interior::<6, 3>::new(Scaled::new(self)).solve(),
-            size => panic!("a body has 3 or 6 unknowns, not {size}"),
-        }
-    }
-
-    /// A basis of the forces that hold the bodies, from such forces, all of them positive: those that are positive where a
-    /// cost is least that is close to one for each edge, but less for the last edge of the points that `straight` names. At
-    /// most as many as there are rows; none where round cones are. None if the method does not come to an end.
-    ///
-    /// # Panics
-    /// If bodies have neither 3 nor 6 unknowns.
-    pub fn basis(&self, forces: &[f64], straight: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
-        let mut cost = Vec::with_capacity(forces.len());
-        for (index, point) in self.points.iter().enumerate() {
-            let Cone::Edges(edges) = &point.cone else { return None };
-            for edge in 0..edges.len() {
-                let factor = if edge + 1 == edges.len() && straight(index) { STRAIGHT } else { 1.0 };
-                cost.push(factor * (1.0 + (cost.len() as f64 * GOLDEN).fract()));
-            }
-        }
-        match self.size {
-            3 => Interior::<3, 2>::of_least_cost(Scaled::new(self), forces, cost).basis(),
-            6 => Interior::<6, 3>::of_least_cost(Scaled::new(self), forces, cost).basis(),
-            size => panic!("a body has 3 or 6 unknowns, not {size}"),
-        }
-    }
-}
-
-/// Effort of an equilibrium solver ([`ConeSolver::effort`](crate::cone::ConeSolver::effort)) on so many bodies of so many unknowns
-/// beyond which this method takes less time than the pivots that follow. A number of operations, so that no clock decides.
-/// Measured: docs/theory/interior-point.md.
-pub fn worth_of_pivots(size: usize, bodies: usize) -> usize {
-    let of_a_body = if size == 3 { 2_000 } else { 50_000 };
-    of_a_body * (bodies + 16)
-}
-
-/// Multiples of the golden ratio's fraction are spread evenly and never repeat: no two sums of such costs are the same.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
-/// Cost of a force straight across a joint, so that what stands by straight pressure is held by it.
-const STRAIGHT: f64 = 0.25;

@@ -8,6 +8,8 @@ pub(super) struct Scaled<const B: usize, const D: usize> {
     /// `M^-1/2 F / unit`.
     pub load: Vec<[f64; B]>,
     pub points: Vec<ScaledPoint<B, D>>,
+    /// Whether a cone is round.
+    pub any_round: bool,
     /// What each unknown force is along the directions of its point: an edge, whose row of `J` has length one, or a component
     /// of a round cone, scaled so that the cone is the second-order one.
     pub edges: Vec<[f64; D]>,
@@ -73,7 +75,8 @@ impl<const B: usize, const D: usize> Scaled<B, D> {
             });
         }
         let offset = problem.offset.iter().zip(&lengths).map(|(offset, length)| offset / length / unit).collect();
-        Self { load, points, edges, lengths, offset, unit, root }
+        let any_round = points.iter().any(|point| point.round);
+        Self { load, points, any_round, edges, lengths, offset, unit, root }
     }
 
     /// Number of unknown forces.

@@ -42,7 +42,7 @@ impl Scaling {
 
     /// `(W^2 + delta)^-1 x`, in place.
     pub fn divide<const B: usize, const D: usize>(&self, problem: &Scaled<B, D>, x: &mut [f64]) {
-        if self.rounds.is_empty() {
+        if !problem.any_round {
             x.iter_mut().zip(&self.squares).for_each(|(x, square)| *x /= square + self.delta);
             return;
         }
@@ -165,7 +165,7 @@ impl Round {
 
 /// The largest step, at most one, that keeps `x + step d` in the cones.
 pub(super) fn step<const B: usize, const D: usize>(problem: &Scaled<B, D>, x: &[f64], d: &[f64]) -> f64 {
-    if problem.points.iter().any(|point| point.round) {
+    if problem.any_round {
         let mut longest = 1.0_f64;
         for point in &problem.points {
             let own = point.own();
