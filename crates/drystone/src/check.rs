@@ -90,7 +90,7 @@ pub fn check_while(
     Ok(match route {
         Route::Equilibrium => check_blocks_while(assembly, &set, cone, go_on),
         Route::Complementarity => complementarity_while(assembly, &set, None, Counts::default(), go_on),
-        Route::InteriorPoint => Some(interior::check(assembly, &set, cone, Counts::default())),
+        Route::InteriorPoint => interior::check(assembly, &set, cone, Counts::default(), go_on),
     })
 }
 
@@ -123,8 +123,8 @@ pub fn check_blocks_while(
     match found {
         // What stands within pyramids stands within the round cones around them.
         Membership::Inside => Some(held(assembly, blocks, &equilibrium, spent)),
-        Membership::PivotLimit => Some(interior::check(assembly, blocks, cone, spent)),
-        _ if assembly.is_round(cone) => Some(interior::check(assembly, blocks, cone, spent)),
+        Membership::PivotLimit => interior::check(assembly, blocks, cone, spent, go_on),
+        _ if assembly.is_round(cone) => interior::check(assembly, blocks, cone, spent, go_on),
         _ => by_equilibrium(assembly, blocks, found, &equilibrium, spent, go_on),
     }
 }
@@ -149,7 +149,10 @@ pub(crate) fn by_equilibrium(
         }
         Membership::Outside => {
             let many = assembly.rows(blocks).len() > FEW;
-            let moved = many.then(|| interior::by_interior_point(assembly, blocks, FrictionCone::Pyramid, spent));
+            let moved = match many {
+                true => Some(interior::by_interior_point(assembly, blocks, FrictionCone::Pyramid, spent, go_on)?),
+                false => None,
+            };
             match moved {
                 Some(moved) if moved.status == Status::Solved && !moved.stable => Some(moved),
                 _ => complementarity_while(assembly, blocks, Some(equilibrium), spent, go_on),

@@ -1,6 +1,6 @@
 //! Verdicts by the interior-point method: forces, or the accelerations of what falls, proved by what shares nothing with it.
 
-use super::{Verdict, by_equilibrium};
+use super::{GoOn, Verdict, by_equilibrium};
 use crate::{
     crossover::from_interior,
     formulate::{Assembly, BlockSet, Components, Constrained, ContactForce, FrictionCone},
@@ -11,29 +11,42 @@ use drystone_lcp::{Counts, Status, cone::Doubt, interior::End};
 
 /// The verdict of the interior-point method. Where its answer proves nothing, the equilibrium solver decides, which has more
 /// digits: on the pyramids, or on those within and around round cones, as far as these agree.
-pub(super) fn check(assembly: &Assembly, blocks: &BlockSet, cone: FrictionCone, spent: Counts) -> Verdict {
-    let found = by_interior_point(assembly, blocks, cone, spent);
+pub(super) fn check(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    cone: FrictionCone,
+    spent: Counts,
+    go_on: &mut GoOn<'_>,
+) -> Option<Verdict> {
+    let found = by_interior_point(assembly, blocks, cone, spent, go_on)?;
     if found.status == Status::Solved {
-        return found;
+        return Some(found);
     }
-    let within = by_pyramids(assembly, blocks, spent);
+    let within = by_pyramids(assembly, blocks, spent, go_on)?;
     if within.stable || !assembly.is_round(cone) {
-        return within;
+        return Some(within);
     }
-    let around = by_pyramids(&assembly.circumscribed(), blocks, within.counts);
+    let around = by_pyramids(&assembly.circumscribed(), blocks, within.counts, go_on)?;
     let falls = around.status == Status::Solved && !around.stable;
-    if falls { around } else { Verdict { counts: around.counts, ..found } }
+    Some(if falls { around } else { Verdict { counts: around.counts, ..found } })
 }
 
-fn by_pyramids(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
+fn by_pyramids(assembly: &Assembly, blocks: &BlockSet, spent: Counts, go_on: &mut GoOn<'_>) -> Option<Verdict> {
     let (found, solver) = from_interior(assembly, blocks);
     let counts = spent + solver.counts();
-    by_equilibrium(assembly, blocks, found, &solver, counts, &mut |_| true).expect("nobody stops it")
+    by_equilibrium(assembly, blocks, found, &solver, counts, go_on)
 }
 
-/// What the interior-point method has found: proved, or borderline.
-pub(super) fn by_interior_point(assembly: &Assembly, blocks: &BlockSet, cone: FrictionCone, spent: Counts) -> Verdict {
-    let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).solve();
+/// What the interior-point method has found: proved, or borderline. None if stopped.
+pub(super) fn by_interior_point(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    cone: FrictionCone,
+    spent: Counts,
+    go_on: &mut GoOn<'_>,
+) -> Option<Verdict> {
+    let size = blocks.len();
+    let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).solve_while(&mut || go_on(size))?;
     let under = accelerations_under(assembly, blocks, &forces);
     // Pivots come nearer to the limit, where there are as many.
     let sure = found.end == End::AtRest || assembly.is_round(cone);
@@ -47,7 +60,7 @@ pub(super) fn by_interior_point(assembly: &Assembly, blocks: &BlockSet, cone: Fr
     let bodies = |blocks: &[(usize, Components)]| blocks.iter().map(|&(block, _)| assembly.body_index(block)).collect();
     let at = |force: ContactForce| (assembly.contacts()[force.contact].clone(), force);
     let doubt = (!stands && !falls).then_some(Doubt { imbalance, power });
-    Verdict {
+    Some(Verdict {
         status: if doubt.is_some() { Status::Borderline } else { Status::Solved },
         stable: stands,
         checked: bodies(&accelerations),
@@ -59,7 +72,7 @@ pub(super) fn by_interior_point(assembly: &Assembly, blocks: &BlockSet, cone: Fr
         residual,
         virtual_motion: false,
         doubt,
-    }
+    })
 }
 
 fn difference(a: &[(usize, Components)], b: &[(usize, Components)]) -> Vec<(usize, Components)> {

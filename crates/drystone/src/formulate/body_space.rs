@@ -121,7 +121,12 @@ impl Assembly {
 
 impl BodySpace<'_> {
     pub fn solve(&self) -> Constrained {
-        let found = self.problem.solve();
+        self.solve_while(&mut || true).expect("nobody stops it")
+    }
+
+    /// [`Self::solve`] as long as `go_on`, asked before every iteration, says so; None if stopped.
+    pub fn solve_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Constrained> {
+        let found = self.problem.solve_while(go_on)?;
         let size = self.problem.size;
         let mut motion = Vec::with_capacity(self.blocks.len());
         for (place, &block) in self.blocks.iter().enumerate() {
@@ -131,7 +136,7 @@ impl BodySpace<'_> {
             motion.push((block, acceleration));
         }
         let forces = self.forces(&found.forces);
-        Constrained { motion, forces, found }
+        Some(Constrained { motion, forces, found })
     }
 
     /// The force at every point, from the unknowns of its cone.

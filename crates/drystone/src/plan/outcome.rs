@@ -135,7 +135,7 @@ pub struct Progress {
 
 /// Watches a search, and may stop it.
 pub trait Monitor {
-    /// Called before every test, and for every block and every major cycle of the check of the whole. False stops the
+    /// Called before every test, and for every block, major cycle and iteration of the check of the whole. False stops the
     /// search.
     fn go_on(&mut self, progress: Progress) -> bool;
 }

@@ -121,19 +121,20 @@ impl<const B: usize, const D: usize> Interior<B, D> {
         Self { f, s: cost.clone(), cost, mass: 0.0, ..Self::new(problem) }
     }
 
-    pub fn solve(mut self) -> Found {
+    /// None if stopped.
+    pub fn solve(mut self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         let Some(mut matrix) = BodyMatrix::new(&self.problem) else {
-            return self.found(End::OutOfMemory, 0, f64::INFINITY);
+            return Some(self.found(End::OutOfMemory, 0, f64::INFINITY));
         };
         let mut step = Step::new(self.a.len(), self.f.len());
         let (mut best, mut since, mut residuals) = (f64::INFINITY, 0, self.residuals());
         for iteration in 0..MOST {
             let merit = residuals.merit();
             if self.mass > 0.0 && iteration > 0 && self.at_rest(&residuals) {
-                return self.found(End::AtRest, iteration, residuals.gap);
+                return Some(self.found(End::AtRest, iteration, residuals.gap));
             }
             if merit <= 1.0 {
-                return self.found(End::Converged, iteration, residuals.gap);
+                return Some(self.found(End::Converged, iteration, residuals.gap));
             }
             let (progress, patience, end) = match residuals.gap < LATE {
                 true => (LATE_PROGRESS, LATE_PATIENCE, End::Converged),
@@ -141,12 +142,15 @@ impl<const B: usize, const D: usize> Interior<B, D> {
             };
             since = if merit < progress * best { 0 } else { since + 1 };
             best = best.min(merit);
+            if !go_on() {
+                return None;
+            }
             if since > patience || !self.iterate(&mut matrix, &mut step, &residuals) {
-                return self.found(end, iteration, residuals.gap);
+                return Some(self.found(end, iteration, residuals.gap));
             }
             residuals = self.residuals();
         }
-        self.found(End::Stalled, MOST, residuals.gap)
+        Some(self.found(End::Stalled, MOST, residuals.gap))
     }
 
     /// One step of predictor and corrector. False if there is none.

@@ -12,7 +12,15 @@ impl Gauss {
     /// # Panics
     /// If bodies have neither 3 nor 6 unknowns.
     pub fn solve(&self) -> Found {
-        self.by_size(None)
+        self.solve_while(&mut || true).expect("nobody stops it")
+    }
+
+    /// [`Self::solve`] as long as `go_on`, asked before every iteration, says so; None if stopped.
+    ///
+    /// # Panics
+    /// If bodies have neither 3 nor 6 unknowns.
+    pub fn solve_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
+        self.by_size(None, go_on)
     }
 
     /// A basis of the forces that hold the bodies, from such forces, all of them positive: those that are positive where a
@@ -30,27 +38,31 @@ impl Gauss {
                 cost.push(factor * (1.0 + (cost.len() as f64 * GOLDEN).fract()));
             }
         }
-        let found = self.by_size(Some((forces, cost)));
+        let found = self.by_size(Some((forces, cost)), &mut || true)?;
         let bearing = || (0..found.bearing.len()).filter(|&j| found.bearing[j]).collect();
         (found.gap <= TOLD_APART).then(bearing)
     }
 
     /// Solves it, or looks for the forces of least cost from some that hold the bodies.
-    fn by_size(&self, dear: Option<(&[f64], Vec<f64>)>) -> Found {
+    fn by_size(&self, dear: Option<(&[f64], Vec<f64>)>, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         match self.size {
-            3 => self.run::<3, 2>(dear),
-            6 => self.run::<6, 3>(dear),
+            3 => self.run::<3, 2>(dear, go_on),
+            6 => self.run::<6, 3>(dear, go_on),
             size => panic!("a body has 3 or 6 unknowns, not {size}"),
         }
     }
 
-    fn run<const B: usize, const D: usize>(&self, dear: Option<(&[f64], Vec<f64>)>) -> Found {
+    fn run<const B: usize, const D: usize>(
+        &self,
+        dear: Option<(&[f64], Vec<f64>)>,
+        go_on: &mut dyn FnMut() -> bool,
+    ) -> Option<Found> {
         let scaled = Scaled::<B, D>::new(self);
         match dear {
             None => Interior::new(scaled),
             Some((forces, cost)) => Interior::of_least_cost(scaled, forces, cost),
         }
-        .solve()
+        .solve(go_on)
     }
 }
 
