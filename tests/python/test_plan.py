@@ -151,7 +151,7 @@ LIMIT = 0.5  # s
 
 
 def falls_slowly() -> ds.Scene:
-    """A structure that falls. Its contacts take a fifth of the limit, its check five times as long."""
+    """Falls. Its contacts take a fifth of the limit, its check five times as long."""
     return ds.scenes.diamond(90)
 
 
