@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         __version__,
     )
     from drystone.body import Body, Contact, Piece, Solid
+    from drystone.contact_force import ContactForce, ContactForces
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.plan_answer import Blocked, Plan, TestRecord
     from drystone.planning import plan
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     from drystone.simulation import Run, simulate
     from drystone.statics import StaticsError
     from drystone.structure import Structure
-    from drystone.verdict import ContactForce, Verdict, check
+    from drystone.verdict import Verdict, check
     from drystone.world import StepRecord, World
 
 __all__ = [
@@ -37,6 +38,7 @@ __all__ = [
     "BusyError",
     "Contact",
     "ContactForce",
+    "ContactForces",
     "DrystoneError",
     "EngineError",
     "LcpError",
@@ -75,7 +77,8 @@ _HOMES = {
     "Body": "drystone.body",
     "BusyError": "drystone._core",
     "Contact": "drystone.body",
-    "ContactForce": "drystone.verdict",
+    "ContactForce": "drystone.contact_force",
+    "ContactForces": "drystone.contact_force",
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
     "LcpError": "drystone._core",

@@ -11,6 +11,7 @@ __all__ = [
     "BusyError",
     "Contact",
     "ContactForce",
+    "ContactForces",
     "DrystoneError",
     "Generators",
     "LcpError",
@@ -217,10 +218,34 @@ class ContactForce:
     force: tuple[float, ...]
 
 @final
+class ContactForces:
+    """All of a verdict, one row a contact point."""
+
+    def __len__(self) -> int: ...
+    def at(self, index: int) -> ContactForce:
+        """IndexError from the number of points on."""
+    def bodies(self) -> NDArray[np.int64]:
+        """(points, 2): places in the scene."""
+    def points(self) -> NDArray[np.float64]: ...
+    def normals(self) -> NDArray[np.float64]: ...
+    def vectors(self) -> NDArray[np.float64]:
+        """(points, dimension), N."""
+    def normal_forces(self) -> NDArray[np.float64]: ...
+    def tangential_forces(self) -> NDArray[np.float64]: ...
+    def borders(self) -> list[int]:
+        """The points that bear where only borders meet."""
+    def json(self, first: int, end: int) -> str:
+        """Objects, one a line, with commas in between."""
+    def to_bytes(self) -> bytes: ...
+    @staticmethod
+    def from_bytes(state: bytes) -> ContactForces:
+        """DrystoneError if the bytes are none."""
+
+@final
 class Verdict:
     status: str
     stable: bool
-    forces: list[ContactForce]
+    forces: ContactForces
     names: list[str]
     accelerations: NDArray[np.float64]
     falling: list[str]

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Body:
     """A snapshot of one body of a scene in the plane."""
 
@@ -39,6 +39,9 @@ class Body:
     offset: tuple[float, float]
     """Where the centroid is in the body's frame, metres."""
 
+    def __repr__(self) -> str:
+        return _line("Body", self)
+
     @property
     def centroid(self) -> tuple[float, float]:
         """(x, y) in metres: the middle of the shape."""
@@ -57,7 +60,7 @@ class Piece:
     """Vertices of each face, counter-clockwise seen from outside."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Solid:
     """A snapshot of one body of a scene in space."""
 
@@ -85,6 +88,9 @@ class Solid:
     """(n, 3), metres: every corner of every piece, in world coordinates."""
     offset: tuple[float, float, float]
     """Where the centroid is in the body's frame, metres."""
+
+    def __repr__(self) -> str:
+        return _line("Solid", self)
 
     @property
     def centroid(self) -> tuple[float, float, float]:
@@ -124,6 +130,12 @@ class Contact:
     at_borders: bool = False
     """Whether only borders meet here: a corner a corner, in space also a corner an edge or an edge
     an edge along it. `normal` is then that of slightly rounded ones."""
+
+
+def _line(kind: str, body: Body | Solid) -> str:
+    at = ", ".join(f"{x:.4g}" for x in body.center_of_mass)
+    weight = "fixed" if body.fixed else f"{body.mass:.4g} kg"
+    return f"<{kind}: {body.name!r}, {weight}, at ({at})>"
 
 
 def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:

@@ -6,10 +6,11 @@ import copy
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
-from drystone import _core
+from drystone import _core, tables
 from drystone.cones import CONES, FACETS
+from drystone.json_text import write_json
 from drystone.scene import Scene
 from drystone.verdict import Verdict, counted, shorten
 
@@ -55,7 +56,7 @@ class Blocked:
         return tuple(dict.fromkeys(name for _, names in self.ways for name in names))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Plan:
     """The answer of `plan`."""
 
@@ -167,6 +168,13 @@ class Plan:
             text += f"; in the way is something of {shorten(stuck)}"
         return text + "." + self._said_of_holds()
 
+    def __repr__(self) -> str:
+        return f"<Plan: {str(self).splitlines()[0]}>"
+
+    def table(self, rows: int = tables.MOST_ROWS) -> str:
+        """The first `rows` steps of the order as text: what is removed, held, and whereto."""
+        return tables.text_of(tables.plan_table(self, rows))
+
     def _said_of_holds(self) -> str:
         steps = [name for action, name, _ in self.hold_steps if action == "hold"]
         if not steps:
@@ -176,6 +184,13 @@ class Plan:
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene, in types that JSON knows."""
+        return self._told(None if self.whole is None else self.whole.to_dict())
+
+    def write_json(self, file: TextIO) -> None:
+        """Write `to_dict` as JSON to an open text file, piece by piece."""
+        write_json(self._told(None if self.whole is None else self.whole._streamed()), file)
+
+    def _told(self, whole: object) -> dict[str, Any]:
         return {
             "found": self.found,
             "status": self.status,
@@ -202,7 +217,7 @@ class Plan:
                 {"size": r.size, "pivots": r.pivots, "seconds": r.seconds, "stable": r.stable}
                 for r in self.records
             ],
-            "whole": None if self.whole is None else self.whole.to_dict(),
+            "whole": whole,
         }
 
     def draw(self, path: str | PathLike[str]) -> None:

@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drystone import _core
+from drystone import _core, tables
 from drystone.cones import CONES, FACETS, core_cones
 from drystone.files import write_whole
 from drystone.scene import Scene
@@ -43,7 +43,7 @@ Progress = Callable[[int, int], None]
 """Called with (steps made, steps in all) a few times a second."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Run:
     """The record of `simulate`: k steps of n bodies, fixed ones included.
 
@@ -169,6 +169,13 @@ class Run:
                 else ("\nNothing moves at the end.")
             )
         return text
+
+    def __repr__(self) -> str:
+        return f"<Run: {str(self).splitlines()[0]}>"
+
+    def table(self, rows: int = tables.MOST_ROWS) -> str:
+        """At most `rows` steps as text, evenly spread: what moved, the work, the errors."""
+        return tables.text_of(tables.run_table(self, rows))
 
     def to_dict(self) -> dict[str, Any]:
         """Totals and the last state, in types that JSON knows; `save` keeps the arrays."""

@@ -3,56 +3,23 @@
 from __future__ import annotations
 
 import copy
+import json
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
-from drystone import _core
+from drystone import _core, tables
 from drystone.bearing import Explanation, NearMiss, Unsupported
 from drystone.cones import CONES, FACETS, ROUND, core_cones
+from drystone.contact_force import ContactForce, ContactForces
+from drystone.json_text import Rows, write_json
 from drystone.scene import Scene
 from drystone.text import shown
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
-
-
-@dataclass(frozen=True, slots=True)
-class ContactForce:
-    """The force that body `a` exerts on body `b` at one contact point, in newtons."""
-
-    a: str
-    b: str
-    feature: str
-    point: tuple[float, ...]
-    """(x, y) in metres; in space (x, y, z)."""
-    normal: tuple[float, ...]
-    """Unit vector from `a` into `b`."""
-    normal_force: float
-    """N along `normal`; never negative: contacts push, they do not pull."""
-    tangential_force: float
-    """N along `normal` turned a quarter counter-clockwise; in space the size of what is square to
-    the normal."""
-    force: tuple[float, ...]
-    """(x, y) in N; in space (x, y, z)."""
-    at_borders: bool = False
-    """Whether only borders meet here, such as a corner on a corner; see `Contact.at_borders`."""
-
-    @classmethod
-    def _of(cls, core: _core.ContactForce) -> ContactForce:
-        return cls(
-            core.a,
-            core.b,
-            core.feature,
-            core.point,
-            core.normal,
-            core.normal_force,
-            core.tangential_force,
-            core.force,
-            core.at_borders,
-        )
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -70,7 +37,7 @@ class Verdict:
     largest force on it and 1e-6 of its own load. It falls if there is a motion that closes no
     contact in which the loads do work by more than ten times what rounding could make of the
     forces. Residuals are refined to 32 digits before both, or neither, are said to hold."""
-    forces: tuple[ContactForce, ...]
+    forces: ContactForces
     """One entry a contact point of the bodies checked."""
     names: tuple[str, ...]
     """The movable bodies checked, in the order of the rows of `accelerations`."""
@@ -113,7 +80,7 @@ class Verdict:
         return cls(
             core.stable,
             core.status,
-            tuple(ContactForce._of(force) for force in core.forces),
+            ContactForces(core.forces),
             tuple(core.names),
             core.accelerations,
             tuple(core.falling),
@@ -145,7 +112,7 @@ class Verdict:
         """The forces that need the normal of slightly rounded borders: those that bear where a
         corner meets a corner, or in space an edge an edge along it or a corner an edge. Sharp
         bodies could slip there, however small the push."""
-        return tuple(f for f in self.forces if f.at_borders and f.normal_force > 0.0)
+        return self.forces.at_borders
 
     @property
     def unsupported(self) -> tuple[Unsupported, ...]:
@@ -191,6 +158,18 @@ class Verdict:
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene, in types that JSON knows."""
+        lines = self.forces.json_lines()
+        return self._told([force for some in lines for force in json.loads(f"[{some}]")])
+
+    def write_json(self, file: TextIO) -> None:
+        """Write `to_dict` as JSON to an open text file, piece by piece: forces and accelerations
+        of a large scene are never in memory as objects."""
+        write_json(self._streamed(), file)
+
+    def _streamed(self) -> dict[str, Any]:
+        return self._told(Rows(self.forces.json_lines()))
+
+    def _told(self, forces: object) -> dict[str, Any]:
         return {
             "stable": self.stable,
             "status": self.status,
@@ -202,20 +181,7 @@ class Verdict:
             "accelerations": {
                 name: row.tolist() for name, row in zip(self.names, self.accelerations, strict=True)
             },
-            "forces": [
-                {
-                    "a": f.a,
-                    "b": f.b,
-                    "feature": f.feature,
-                    "point": list(f.point),
-                    "normal": list(f.normal),
-                    "normal_force": f.normal_force,
-                    "tangential_force": f.tangential_force,
-                    "force": list(f.force),
-                    "at_borders": f.at_borders,
-                }
-                for f in self.forces
-            ],
+            "forces": forces,
             "pivots": self.pivots,
             "major_cycles": self.major_cycles,
             "minor_cycles": self.minor_cycles,
@@ -223,6 +189,18 @@ class Verdict:
             "residual": self.residual,
             "seconds": self.seconds,
         }
+
+    def table(self, rows: int = tables.MOST_ROWS) -> str:
+        """The first `rows` forces of what stands, or accelerations of what falls, as text.
+
+        >>> import drystone as ds
+        >>> print(ds.check(ds.scenes.column(2)).table())
+          contact      x [m]   y [m]   normal [N]   tangential [N]
+         ──────────────────────────────────────────────────────────
+          ground - 1    -0.5       0        4.905                0
+          ground - 1     0.5       0        4.905                0
+        """
+        return tables.text_of(tables.verdict_table(self, rows, "rows= shows more"))
 
     def draw(self, path: str | PathLike[str]) -> None:
         """Write a picture of the forces, or of the fall; the name ends in .svg or .png."""

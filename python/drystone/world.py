@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
+from drystone.contact_force import ContactForce
 from drystone.scene import UPRIGHT, Point, Scene
 from drystone.simulation import Progress, Run, numbers, velocity_of
-from drystone.verdict import ContactForce
 from drystone.weight import Inertia
 
 if TYPE_CHECKING:

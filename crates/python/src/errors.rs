@@ -96,6 +96,11 @@ pub fn no_structure(reason: impl std::fmt::Display) -> PyErr {
     raise(|known| &known.base, format!("this is no structure that was written down: {reason}"))
 }
 
+/// Bytes that are no contact forces.
+pub fn no_forces(reason: impl std::fmt::Display) -> PyErr {
+    raise(|known| &known.base, format!("these are no contact forces that were written down: {reason}"))
+}
+
 /// A solver ended without an answer on a structure of so many blocks.
 pub fn no_answer(blocks: usize) -> PyErr {
     raise(|known| &known.base, format!("the equilibrium solver gave no answer on a structure of {blocks} blocks"))

@@ -1,6 +1,7 @@
 //! The Python extension module `drystone._core`: conversions only. The public names live in `python/drystone`.
 
 mod arrays;
+mod contact_forces;
 mod coordinates;
 mod errors;
 mod forces;
@@ -26,7 +27,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::Body>()?;
     module.add_class::<scene::Solid>()?;
     module.add_class::<scene::Contact>()?;
-    module.add_class::<verdict::ContactForce>()?;
+    module.add_class::<contact_forces::ContactForce>()?;
+    module.add_class::<contact_forces::ContactForces>()?;
     module.add_class::<verdict::Verdict>()?;
     module.add_class::<plan::TestRecord>()?;
     module.add_class::<plan::Plan>()?;

@@ -1,35 +1,19 @@
 //! `check` and its answer.
 
-use crate::{arrays::matrix, coordinates::Coordinates, errors::scene_error, scene::Scene, watch::interruptible};
+use crate::{arrays::matrix, contact_forces::ContactForces, errors::scene_error, scene::Scene, watch::interruptible};
 use drystone::{
     check::{Route, check_while},
     formulate::{Assembly, FrictionCone},
-    geometry::Numbers,
-    simulate::ContactImpulse,
 };
 use numpy::PyArray2;
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::time::{Duration, Instant};
 
-/// The force that body `a` exerts on body `b` at one contact point, in newtons.
-#[pyclass(frozen, get_all, module = "drystone._core")]
-pub struct ContactForce {
-    a: String,
-    b: String,
-    feature: String,
-    at_borders: bool,
-    point: Coordinates,
-    normal: Coordinates,
-    normal_force: f64,
-    tangential_force: f64,
-    force: Coordinates,
-}
-
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct Verdict {
     status: String,
     stable: bool,
-    forces: Vec<Py<ContactForce>>,
+    forces: Py<ContactForces>,
     names: Vec<String>,
     accelerations: Py<PyArray2<f64>>,
     falling: Vec<String>,
@@ -45,49 +29,14 @@ pub struct Verdict {
     seconds: f64,
 }
 
-impl ContactForce {
-    /// The mean force of a step of length `dt`.
-    pub fn of_impulse<V: Numbers + Into<Coordinates>>(names: &[&str], contact: &ContactImpulse<V>, dt: f64) -> Self {
-        let [a, b] = contact.id.bodies.map(|body| names[body].to_owned());
-        let mut force = contact.impulse;
-        force.as_mut().iter_mut().for_each(|p| *p /= dt);
-        Self {
-            a,
-            b,
-            feature: contact.id.feature.to_string(),
-            at_borders: contact.id.feature.at_borders(),
-            point: contact.point.into(),
-            normal: contact.normal.into(),
-            normal_force: contact.along_normal / dt,
-            tangential_force: contact.tangential() / dt,
-            force: force.into(),
-        }
-    }
-}
-
 impl Verdict {
     pub fn new(py: Python<'_>, assembly: &Assembly, verdict: &drystone::Verdict, time: Duration) -> PyResult<Self> {
         let name = |&index: &usize| assembly.bodies()[index].name.clone();
-        let coordinates = |of: [f64; 3]| Coordinates::of(of, assembly.in_plane());
         let accelerations = verdict.accelerations.iter();
-        let force = |(contact, force): &(drystone::Contact, drystone::formulate::ContactForce)| {
-            let force = ContactForce {
-                a: name(&contact.bodies[0]),
-                b: name(&contact.bodies[1]),
-                feature: contact.id.feature.to_string(),
-                at_borders: contact.id.feature.at_borders(),
-                point: coordinates(contact.point),
-                normal: coordinates(contact.normal),
-                normal_force: force.normal,
-                tangential_force: force.tangential,
-                force: coordinates(force.force),
-            };
-            Py::new(py, force)
-        };
         Ok(Self {
             status: verdict.status.name().to_owned(),
             stable: verdict.stable,
-            forces: verdict.forces.iter().map(force).collect::<PyResult<_>>()?,
+            forces: Py::new(py, ContactForces::new(assembly, &verdict.forces))?,
             names: verdict.checked.iter().map(name).collect(),
             accelerations: if assembly.in_plane() {
                 matrix(py, &accelerations.map(|a| a.in_plane()).collect::<Vec<_>>())?.unbind()

@@ -2,11 +2,11 @@
 
 use crate::{
     arrays::rows,
+    contact_forces::ContactForce,
     errors::{scene_error, simulation_error, step_error},
     guard::Guarded,
     run::{Run, StepRecord},
     scene::{Scene, cones},
-    verdict::ContactForce,
     watch::{Watch, interruptible},
 };
 use drystone::{

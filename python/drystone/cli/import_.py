@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import listed, reporting_files
-from drystone.cli.output import MOST_ROWS, console, cut, table
+from drystone.cli.output import console
 from drystone.imports import Imported, load
+from drystone.tables import MOST_ROWS, cut, table
 from drystone.text import shown
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+import sys
 from itertools import groupby
 from pathlib import Path
 
@@ -49,7 +49,7 @@ def run(
         with reporting_files():
             _write(found, picture)
     if as_json:
-        print(json.dumps(found.to_dict(), indent=2))
+        found.write_json(sys.stdout)
     else:
         _print(found, picture)
     return 0 if found.found else 1

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING
 from drystone.cli import BAD_INPUT, INTERRUPTED
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import reporting_files
-from drystone.cli.output import MOST_ROWS, console, cut, table
+from drystone.cli.output import console
 from drystone.many import ManyPlans, plan_many
 from drystone.many.progress import ManyProgress
+from drystone.tables import MOST_ROWS, cut, table
 from drystone.text import shown
 from drystone.verdict import shorten
 

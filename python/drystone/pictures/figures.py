@@ -150,10 +150,9 @@ def _draw_ways_out(canvas: Canvas, plan: Plan) -> None:
 
 def _draw_forces(canvas: Canvas, verdict: Verdict, longest: float) -> None:
     """Each force once, as it acts on the body that is carried: against gravity."""
-    points = np.array([force.point for force in verdict.forces]).reshape(-1, 2)
-    vectors = np.array([force.force for force in verdict.forces]).reshape(-1, 2)
+    points, vectors = verdict.forces.points, verdict.forces.vectors
     down = vectors @ np.asarray(verdict.scene.gravity) > 0
-    vectors[down] *= -1
+    vectors = np.where(down[:, None], -vectors, vectors)
     draw_arrows(canvas, points, vectors, longest, "N", style.FORCE)
 
 

@@ -56,8 +56,7 @@ def verdict_figure(verdict: Verdict) -> Figure:
     draw_solids(canvas, drawing, fills, dict.fromkeys(falling, style.FALL))
     present = [outline for outline in drawing.outlines if outline.name in fills]
     longest = min(0.12 * canvas.diagonal, 0.6 * typical_size(present))
-    points = np.array([force.point for force in verdict.forces]).reshape(-1, 3)
-    vectors = np.array([force.force for force in verdict.forces]).reshape(-1, 3)
+    points, vectors = verdict.forces.points, verdict.forces.vectors
     draw_forces(canvas, drawing, points, vectors, verdict.scene.gravity, longest)
     if falling:
         _draw_fall(canvas, drawing, verdict, longest, typical_size(present))

@@ -166,21 +166,15 @@ def _forces(
 def _fallen(plan: Plan, whole: Verdict, headline: str) -> Recording:
     """One frame: the complete assembly, and what of it falls."""
     names = plan.scene.names
-    states = np.full((1, len(names)), PRESENT, dtype=np.uint8)
-    states[0, [names.index(name) for name in whole.falling]] = FALLING
-    dimension = plan.scene.dimension
-    vectors = np.array([force.force for force in whole.forces]).reshape(-1, dimension)
+    falling = set(whole.falling)
+    states = np.array([[FALLING if name in falling else PRESENT for name in names]], np.uint8)
+    forces = whole.forces
     return Recording(
         kind="plan",
         title=headline,
         bodies=plan.scene.bodies,
         states=states,
         gravity=plan.scene.gravity,
-        forces=FrameForces(
-            [0, len(vectors)],
-            np.array([[names.index(f.a), names.index(f.b)] for f in whole.forces]).reshape(-1, 2),
-            np.array([force.point for force in whole.forces]).reshape(-1, dimension),
-            vectors,
-        ),
+        forces=FrameForces([0, len(forces)], forces.bodies, forces.points, forces.vectors),
         captions=[(0, str(whole).partition("; ")[0] + ".")],
     )

@@ -1,0 +1,149 @@
+"""Forces at contact points: one as an object, all of an answer as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, overload
+
+from drystone import _core
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, slots=True)
+class ContactForce:
+    """The force that body `a` exerts on body `b` at one contact point, in newtons."""
+
+    a: str
+    b: str
+    feature: str
+    point: tuple[float, ...]
+    """(x, y) in metres; in space (x, y, z)."""
+    normal: tuple[float, ...]
+    """Unit vector from `a` into `b`."""
+    normal_force: float
+    """N along `normal`; never negative: contacts push, they do not pull."""
+    tangential_force: float
+    """N along `normal` turned a quarter counter-clockwise; in space the size of what is square to
+    the normal."""
+    force: tuple[float, ...]
+    """(x, y) in N; in space (x, y, z)."""
+    at_borders: bool = False
+    """Whether only borders meet here, such as a corner on a corner; see `Contact.at_borders`."""
+
+    @classmethod
+    def _of(cls, core: _core.ContactForce) -> ContactForce:
+        return cls(
+            core.a,
+            core.b,
+            core.feature,
+            core.point,
+            core.normal,
+            core.normal_force,
+            core.tangential_force,
+            core.force,
+            core.at_borders,
+        )
+
+
+class ContactForces(Sequence[ContactForce]):
+    """The forces at all contact points of an answer.
+
+    A sequence of `ContactForce`, each made when it is asked for, and the same numbers as read-only
+    arrays, one row a contact point:
+
+    >>> import drystone as ds
+    >>> forces = ds.check(ds.scenes.column(3)).forces
+    >>> len(forces), forces[0].b, forces.normal_forces.round(3).tolist()
+    (4, '1', [9.81, 9.81, 4.905, 4.905])
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.ContactForces) -> None:
+        self._core = core
+
+    @property
+    def bodies(self) -> NDArray[np.int64]:
+        """(points, 2): `a` and `b` as places in `scene.bodies`."""
+        return self._core.bodies()
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(points, 2), in space (points, 3): where, metres."""
+        return self._core.points()
+
+    @property
+    def normals(self) -> NDArray[np.float64]:
+        """As many: unit vectors from `a` into `b`."""
+        return self._core.normals()
+
+    @property
+    def vectors(self) -> NDArray[np.float64]:
+        """As many: the forces of `a` on `b`, N."""
+        return self._core.vectors()
+
+    @property
+    def normal_forces(self) -> NDArray[np.float64]:
+        """(points,): N along the normals, never negative."""
+        return self._core.normal_forces()
+
+    @property
+    def tangential_forces(self) -> NDArray[np.float64]:
+        """(points,): N, as `ContactForce.tangential_force`."""
+        return self._core.tangential_forces()
+
+    @property
+    def at_borders(self) -> tuple[ContactForce, ...]:
+        """Those that bear where only borders meet."""
+        return tuple(self[k] for k in self._core.borders())
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    @overload
+    def __getitem__(self, index: int) -> ContactForce: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[ContactForce, ...]: ...
+    def __getitem__(self, index: int | slice) -> ContactForce | tuple[ContactForce, ...]:
+        if isinstance(index, slice):
+            return tuple(self[k] for k in range(*index.indices(len(self))))
+        try:
+            return ContactForce._of(self._core.at(range(len(self))[index]))
+        except IndexError:
+            raise IndexError(f"contact point {index} of {len(self)}") from None
+
+    def __iter__(self) -> Iterator[ContactForce]:
+        return (ContactForce._of(self._core.at(k)) for k in range(len(self)))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ContactForces | tuple):
+            return NotImplemented
+        return len(self) == len(other) and all(a == b for a, b in zip(self, other, strict=True))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"<ContactForces: {len(self)} contact points>"
+
+    def __copy__(self) -> ContactForces:
+        return self  # nobody can change it
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> ContactForces:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self)._again, (self._core.to_bytes(),)
+
+    @classmethod
+    def _again(cls, state: bytes) -> ContactForces:
+        """What was pickled; DrystoneError if the bytes are none."""
+        return cls(_core.ContactForces.from_bytes(state))
+
+    def json_lines(self, together: int = 4096) -> Iterator[str]:
+        """JSON objects with the fields of `ContactForce`, one a line, some `together`."""
+        for first in range(0, len(self), together):
+            yield self._core.json(first, min(first + together, len(self)))

@@ -1,0 +1,111 @@
+"""Answers as tables of text, for people: on the command line, and where `.table()` is asked for."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from drystone.text import shown
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from drystone.plan_answer import Plan
+    from drystone.simulation import Run
+    from drystone.verdict import Verdict
+
+MOST_ROWS = 40
+"""Longer tables are cut, with a line that says so."""
+
+IN_JSON = "--json lists all"
+"""Where the rest of a table is, on the command line."""
+
+WIDE = 1_000_000
+"""Columns of what is no terminal: a program that reads lines wants them whole."""
+
+
+def table(first: str, *others: str, left: Sequence[str] = ()) -> Table:
+    """An empty table: names in the first column, numbers in the others but those in `left`."""
+    from rich import box
+    from rich.table import Table
+
+    made = Table(box=box.SIMPLE_HEAD)
+    made.add_column(first, overflow="fold")
+    for title in others:
+        made.add_column(title, justify="left" if title in left else "right", overflow="fold")
+    return made
+
+
+def cut(made: Table, rows: int, shown_rows: int = MOST_ROWS, more: str = IN_JSON) -> Table:
+    """Says so if the table has fewer than all its rows."""
+    if rows > shown_rows:
+        made.caption = f"the first {shown_rows} of {rows}; {more}"
+    return made
+
+
+def text_of(made: Table) -> str:
+    """The table as lines of text."""
+    from rich.console import Console
+
+    file = io.StringIO()
+    Console(file=file, width=WIDE, markup=False, emoji=False, highlight=False).print(made)
+    lines = (line.rstrip() for line in file.getvalue().splitlines())
+    return "\n".join(line for line in lines if line)
+
+
+def verdict_table(verdict: Verdict, rows: int = MOST_ROWS, more: str = IN_JSON) -> Table:
+    """The forces of what stands, the accelerations of what falls."""
+    return (_fall_table if verdict.falling else _force_table)(verdict, rows, more)
+
+
+def _force_table(verdict: Verdict, rows: int, more: str) -> Table:
+    axes = "xyz"[: verdict.scene.dimension]
+    metres = [f"{axis} [m]" for axis in axes]
+    made = table("contact", *metres, "normal [N]", "tangential [N]")
+    for force in verdict.forces[:rows]:
+        made.add_row(
+            f"{shown(force.a)} - {shown(force.b)}",
+            *(f"{value:.4g}" for value in force.point),
+            f"{force.normal_force:.4g}",
+            f"{force.tangential_force:.4g}",
+        )
+    return cut(made, len(verdict.forces), rows, more)
+
+
+def _fall_table(verdict: Verdict, rows: int, more: str) -> Table:
+    titles = ["x [m/s²]", "y [m/s²]", "turns [rad/s²]"]
+    if verdict.scene.dimension == 3:
+        titles = [f"{axis} [m/s²]" for axis in "xyz"] + [f"turns {axis} [rad/s²]" for axis in "xyz"]
+    made = table("falls", *titles)
+    for name in verdict.falling[:rows]:
+        made.add_row(shown(name), *(f"{value:.4g}" for value in verdict.acceleration(name)))
+    return cut(made, len(verdict.falling), rows, more)
+
+
+def plan_table(plan: Plan, rows: int) -> Table:
+    """The order: which block leaves, what is held then, and whereto."""
+    made = table("step", "remove", "held", "towards", left=("remove", "held", "towards"))
+    for k, name in enumerate(plan.order[:rows]):
+        held = " ".join(shown(other) for other in plan.holds[k]) if plan.holds else ""
+        way = ", ".join(f"{x:.3g}" for x in plan.directions[k]) if plan.directions else ""
+        made.add_row(str(k + 1), shown(name), held, way)
+    return cut(made, len(plan.order), rows, "rows= shows more")
+
+
+def run_table(run: Run, rows: int) -> Table:
+    """A line for each of some steps, evenly spread, the last one among them."""
+    made = table("step", "time [s]", "moving", "pivots", "overlap [m]", "friction error [m/s]")
+    count = min(rows, run.steps)
+    for k in (((j + 1) * run.steps) // count - 1 for j in range(count)):
+        made.add_row(
+            str(k + 1),
+            f"{(k + 1) * run.dt:.4g}",
+            str(int((~run.motionless[k]).sum())),
+            str(int(run.pivots[k])),
+            f"{run.penetration[k]:.2g}",
+            f"{run.friction_error[k]:.2g}",
+        )
+    if count < run.steps:
+        made.caption = f"{count} of {run.steps} steps; rows= shows more"
+    return made
