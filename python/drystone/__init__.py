@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     )
     from drystone.body import Body, Contact, Piece, Solid
     from drystone.contact_force import ContactForce, ContactForces
+    from drystone.loads import Load
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.plan_answer import Blocked, Plan, TestRecord
     from drystone.planning import plan
@@ -42,6 +43,7 @@ __all__ = [
     "DrystoneError",
     "EngineError",
     "LcpError",
+    "Load",
     "ManyPlans",
     "Piece",
     "Plan",
@@ -82,6 +84,7 @@ _HOMES = {
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
     "LcpError": "drystone._core",
+    "Load": "drystone.loads",
     "ManyPlans": "drystone.many",
     "Piece": "drystone.body",
     "Plan": "drystone.plan_answer",

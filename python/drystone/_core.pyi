@@ -35,13 +35,19 @@ __all__ = [
     "Verdict",
     "World",
     "__version__",
+    "add_load",
+    "add_pressure",
     "catalogue",
     "check",
     "disassembly_graph",
     "forces_along",
     "generators",
     "lcp_solve",
+    "loads",
+    "pair_frictions",
     "plan",
+    "set_friction",
+    "with_gravity",
 ]
 
 __version__: str
@@ -530,6 +536,27 @@ class LcpSolver:
 def catalogue() -> list[tuple[str, str, list[tuple[str, str, bool, float]]]]:
     """Built-in scenes: (name, summary, [(parameter, summary, whole number or not, default)])."""
 
+def add_load(
+    scene: Scene,
+    body: str,
+    force: Sequence[float],
+    at: Sequence[float] | None,
+    moment: Sequence[float],
+    name: str | None,
+) -> str:
+    """`moment` has three numbers, of which the plane uses the last."""
+
+def add_pressure(
+    scene: Scene, body: str, direction: Sequence[float], pressure: float, name: str | None
+) -> str: ...
+def set_friction(scene: Scene, a: str, b: str, friction: float) -> None: ...
+def with_gravity(scene: Scene, gravity: Sequence[float]) -> Scene: ...
+def loads(
+    scene: Scene,
+) -> list[tuple[str, str, tuple[float, ...], tuple[float, ...], list[float]]]:
+    """(name, body, force, where it acts in the world, moment) of every permanent load."""
+
+def pair_frictions(scene: Scene) -> list[tuple[str, str, float]]: ...
 def generators(scene: Scene, cones: tuple[int, str] | None = None) -> Generators:
     """`cones`: edges of a friction cone in space, and "inscribed" or "circumscribed"."""
 

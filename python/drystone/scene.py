@@ -10,6 +10,7 @@ from warnings import warn
 
 from drystone import _core, weight
 from drystone.body import Contact, snapshot
+from drystone.loads import Load, listed, number, turning, vector
 from drystone.overlaps import Overlap
 from drystone.weight import Inertia
 
@@ -291,6 +292,67 @@ class Scene:
             inertia=inertia,
         )
 
+    def add_load(
+        self,
+        body: str,
+        force: Point | None = None,
+        at: Point | None = None,
+        moment: float | Sequence[float] | None = None,
+        name: str | None = None,
+    ) -> str:
+        """Put a permanent load on a body and return the load's name.
+
+        `force` (N, world axes) acts at the point `at` (metres, world coordinates), by default at
+        the centroid of the body; `moment` (N m) beside it, counter-clockwise, in space three
+        numbers about the axes of the world. Every question takes it into account. In motion the
+        point goes with the body, and force and moment keep their direction.
+
+        Raises SceneError for an unknown body, a name that another load has, wrong numbers.
+
+        >>> import drystone as ds
+        >>> scene = ds.scenes.slope(20, friction=0.5)
+        >>> scene.add_load("1", force=(-2.0, 0.0), name="wind")
+        'wind'
+        >>> scene.loads[0].force
+        (-2.0, 0.0)
+        """
+        n = self.dimension
+        return _core.add_load(
+            self._core,
+            _name(body) or "",
+            [0.0] * n if force is None else vector(force, n, "force"),
+            None if at is None else vector(at, n, "at"),
+            turning(moment, n),
+            _name(name),
+        )
+
+    def add_pressure(self, body: str, face: Point, pressure: float, name: str | None = None) -> str:
+        """Load the face of a body that looks in the direction `face` and return the load's name.
+
+        `pressure` in N/m^2 pushes against the face; in the plane in N/m, for each metre of its
+        length. `face` need not be a unit vector. Of the faces whose normals are nearest to it,
+        within 45 degrees, the outermost is taken: for a body of several pieces all that lie in that
+        plane. What acts on the body is the resultant, a load like those of `add_load`.
+
+        Raises SceneError if no face looks there, or two alike, and for what `add_load` does.
+        """
+        direction = vector(face, self.dimension, "face (a direction)")
+        force = number(pressure, "pressure")
+        return _core.add_pressure(self._core, _name(body) or "", direction, force, _name(name))
+
+    def set_friction(self, a: str, b: str, friction: float) -> None:
+        """Give the contacts of two bodies a coefficient of their own, whatever those of the two.
+
+        Raises SceneError for an unknown name, one body twice, or a coefficient that is not usable.
+        """
+        value = number(friction, "friction")
+        _core.set_friction(self._core, _name(a) or "", _name(b) or "", value)
+
+    def with_gravity(self, gravity: Point) -> Scene:
+        """The same scene, loads included, under another gravity (m/s^2)."""
+        found = vector(gravity, self.dimension, "gravity")
+        return Scene._of(_core.with_gravity(self._core, found))
+
     def extruded(self, depth: float = 1.0) -> Scene:
         """This planar scene in space: (x, y) becomes (x, 0, y), and every block gets a thickness.
 
@@ -383,6 +445,16 @@ class Scene:
         return snapshot(self._core.body(_name(name) or ""))
 
     @property
+    def loads(self) -> tuple[Load, ...]:
+        """The permanent loads, body by body; see `add_load`."""
+        return listed(self)
+
+    @property
+    def pair_friction(self) -> dict[tuple[str, str], float]:
+        """Pairs of bodies with a coefficient of friction of their own; see `set_friction`."""
+        return {(a, b): friction for a, b, friction in _core.pair_frictions(self._core)}
+
+    @property
     def contacts(self) -> list[Contact]:
         """Every contact point: both ends of a shared face, the corner of a corner on a face.
 
@@ -408,7 +480,8 @@ class Scene:
         fixed = sum(body.fixed for body in self._core.bodies())
         where = "" if self.dimension == 2 else " in space"
         count = f"{len(self)} bodies{where}, {fixed} of them fixed"
-        return f"<Scene: {count}, friction {self.friction:g}>"
+        loads = f", {len(self.loads)} loads" if self.loads else ""
+        return f"<Scene: {count}{loads}, friction {self.friction:g}>"
 
     def draw(self, path: str | PathLike[str]) -> None:
         """Write a picture of the scene (.svg or .png), or a page to look at it (.html).

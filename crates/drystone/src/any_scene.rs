@@ -93,12 +93,9 @@ impl AnyScene {
         with_scene!(self, scene => scene.friction())
     }
 
-    /// The largest coefficient of friction of any body.
+    /// The largest coefficient of friction that any contact can have.
     pub fn largest_friction(&self) -> f64 {
-        with_scene!(self, scene => {
-            let own = scene.bodies().iter().map(|body| body.friction.unwrap_or(scene.friction()));
-            own.fold(0.0, f64::max)
-        })
+        with_scene!(self, scene => scene.largest_friction())
     }
 
     /// The one contact tolerance for every pair, metres, if the scene sets it.

@@ -145,6 +145,29 @@ pub enum SceneError {
         /// The existing name closest to it, if any is close.
         nearest: Option<String>,
     },
+    /// Two loads with the same name.
+    #[error("there is a load named \"{name}\" already: names of loads must differ")]
+    DuplicateLoad {
+        /// The name given twice.
+        name: String,
+    },
+    /// No face of a block looks in a direction, or two do alike.
+    #[error(
+        "block \"{body}\": no one face looks in the direction {direction:?}: give the outward normal of the face \
+         (add_load takes any force)"
+    )]
+    NoFace {
+        /// The block.
+        body: String,
+        /// What was asked for.
+        direction: Vec<f64>,
+    },
+    /// The friction of a block with itself.
+    #[error("the friction of a pair is that of two blocks, not of \"{name}\" twice")]
+    FrictionOfOne {
+        /// The block.
+        name: String,
+    },
     /// Two blocks occupy the same place by more than the contact tolerance.
     #[error(
         "blocks \"{a}\" and \"{b}\" overlap by {depth:.3e} m, more than the contact tolerance of \
@@ -263,7 +286,7 @@ pub enum FileError {
     },
     /// A version this library does not know.
     #[error(
-        "{file}: \"version\" is {found}, and this library reads version {supported}: \
+        "{file}: \"version\" is {found}, and this library reads versions up to {supported}: \
          update drystone, or save the scene in that version"
     )]
     UnsupportedVersion {

@@ -102,7 +102,7 @@ fn at_rest(assembly: &Assembly, block: usize, acceleration: &Components, f: impl
 
 /// Whether a block of such a [`severity`] is at rest where the largest force on it, N, is this.
 pub(crate) fn at_rest_under(assembly: &Assembly, block: usize, severity: f64, largest: f64) -> bool {
-    let in_own_weights = largest * assembly.inverse_mass(block)[0] / unit_of_acceleration(assembly);
+    let in_own_weights = largest * assembly.inverse_mass(block)[0] / assembly.unit_of_acceleration(block);
     severity <= AT_REST || severity <= OF_OWN_LOAD && severity <= AT_REST * in_own_weights
 }
 
@@ -139,16 +139,13 @@ pub(crate) fn proves_fall(
     closing <= closing_share * fastest && power > MARGIN * bound
 }
 
-/// Largest acceleration of a point of a block, as a share of gravity (of 1 m/s^2 without gravity).
+/// Largest acceleration of a point of a block, as a share of what its own loads give it: of gravity where it has no others, of
+/// 1 m/s^2 where it has none.
 pub(crate) fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
-    speed(assembly, block, acceleration) / unit_of_acceleration(assembly)
+    speed(assembly, block, acceleration) / assembly.unit_of_acceleration(block)
 }
 
 /// Of the fastest point of a block, or a little less.
 pub(crate) fn speed(assembly: &Assembly, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
     length([x, y, z]).max(length(*turning) * assembly.body(block).radius)
-}
-
-fn unit_of_acceleration(assembly: &Assembly) -> f64 {
-    Some(length(assembly.gravity())).filter(|&gravity| gravity > 0.0).unwrap_or(1.0)
 }

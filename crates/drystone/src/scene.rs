@@ -1,13 +1,14 @@
 //! A scene: gravity, friction and rigid blocks, each checked when it is added.
 
-use crate::bounds::{ANGLE, COORDINATE, FRICTION, GRAVITY, INERTIA, LENGTH, MASS, SLENDERNESS, TOLERANCE};
-use crate::checked::{finite, positive};
+use crate::bounds::{ANGLE, COORDINATE, FRICTION, INERTIA, LENGTH, MASS, SLENDERNESS, TOLERANCE};
+use crate::checked::positive;
 use crate::error::SceneError;
-use crate::geometry::{Polygon, Pose, Shape, Vector3, norm};
+use crate::geometry::{Polygon, Pose, Shape, Vector3};
 use crate::interrupt::poll;
+use crate::load::{Load, check_gravity};
 use crate::mass_properties::{MassProperties, Weighed};
 use crate::suggest::nearest;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
 
 /// How a block is called and what it is made of.
@@ -59,6 +60,7 @@ pub struct Body<S: Shape = Polygon> {
     /// What was given of its weight, in the body's frame: a centre of mass is its origin.
     pub(crate) own: MassProperties,
     weighed: Weighed,
+    loads: Vec<Load<S::Vector>>,
 }
 
 impl<S: Shape> Body<S> {
@@ -70,6 +72,11 @@ impl<S: Shape> Body<S> {
     /// Principal moments of inertia about the centre of mass, kg m^2: in the plane there is one.
     pub fn moments(&self) -> &[f64] {
         &self.weighed.moments
+    }
+
+    /// Permanent loads beside the weight.
+    pub fn loads(&self) -> &[Load<S::Vector>] {
+        &self.loads
     }
 
     /// Unit vectors of the principal axes in the body's frame, in the order of the moments; in the plane those of the frame.
@@ -117,8 +124,10 @@ pub type Scene = SceneOf<Polygon>;
 /// masses kilograms, angles radians.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneOf<S: Shape> {
-    gravity: S::Vector,
+    pub(crate) gravity: S::Vector,
     friction: f64,
+    /// Coefficients of pairs, the lower index first, that have their own.
+    pub(crate) pairs: BTreeMap<[usize; 2], f64>,
     contact_tolerance: Option<f64>,
     bodies: Vec<Body<S>>,
     index: HashMap<String, usize>,
@@ -131,14 +140,10 @@ impl<S: Shape> SceneOf<S> {
     /// An empty scene. `gravity` in m/s^2; `friction` is the coefficient of every block without
     /// one of its own. [`crate::bounds`] says how large and how small they may be.
     pub fn new(gravity: S::Vector, friction: f64) -> Result<Self, SceneError> {
-        for (axis, &value) in gravity.as_ref().iter().enumerate() {
-            finite(format_args!("the scene's gravity[{axis}]"), value)?;
-        }
-        if gravity.as_ref().iter().any(|&value| value != 0.0) {
-            GRAVITY.check("the size of the scene's gravity", norm(gravity.as_ref()))?;
-        }
+        check_gravity(&gravity)?;
         check_friction("the scene's friction", friction)?;
-        Ok(Self { gravity, friction, contact_tolerance: None, bodies: Vec::new(), index: HashMap::new() })
+        let (pairs, index) = (BTreeMap::new(), HashMap::new());
+        Ok(Self { gravity, friction, pairs, contact_tolerance: None, bodies: Vec::new(), index })
     }
 
     /// The same scene with one contact tolerance, in metres, for every pair of blocks, instead of
@@ -154,9 +159,17 @@ impl<S: Shape> SceneOf<S> {
         self.bodies[index].pose = pose;
     }
 
+    /// The loads of a block, to change them.
+    pub(crate) fn loads_mut(&mut self, index: usize) -> &mut Vec<Load<S::Vector>> {
+        &mut self.bodies[index].loads
+    }
+
     /// Takes a block out; those after it move up by one.
     pub(crate) fn remove(&mut self, index: usize) {
         self.bodies.remove(index);
+        let up = |i: usize| if i > index { i - 1 } else { i };
+        let left = self.pairs.iter().filter(|(pair, _)| !pair.contains(&index));
+        self.pairs = left.map(|(pair, friction)| (pair.map(up), *friction)).collect();
         self.index = self.bodies.iter().enumerate().map(|(k, body)| (body.name.clone(), k)).collect();
     }
 
@@ -178,7 +191,7 @@ impl<S: Shape> SceneOf<S> {
         let weighed = own.weigh(&name, &shape, density)?;
         let density = own.mass.map_or(density, |mass| mass / shape.measure());
         let own = MassProperties { center_of_mass: own.center_of_mass.map(|_| [0.0; 3]), ..own };
-        let body = Body { name, shape, box_size, pose, density, friction, fixed, own, weighed };
+        let body = Body { name, shape, box_size, pose, density, friction, fixed, own, weighed, loads: Vec::new() };
         body.check_size()?;
         body.check_mass()?;
         let index = self.bodies.len();
@@ -235,9 +248,12 @@ impl<S: Shape> SceneOf<S> {
         self.contact_tolerance
     }
 
-    /// Coefficient of friction between two blocks: the smaller of theirs. A contact then never
-    /// claims more grip than either of its surfaces allows, so a verdict errs on the safe side.
+    /// Coefficient of friction between two blocks: the pair's own if it has one, else the smaller of theirs. A contact then
+    /// never claims more grip than either of its surfaces allows, so a verdict errs on the safe side.
     pub fn pair_friction(&self, a: usize, b: usize) -> f64 {
+        if let Some(&friction) = self.pairs.get(&[a.min(b), a.max(b)]) {
+            return friction;
+        }
         let own = |i: usize| self.bodies[i].friction.unwrap_or(self.friction);
         own(a).min(own(b))
     }
@@ -329,7 +345,7 @@ pub(crate) fn within_reach<const N: usize>(name: &str, vertices: &[[f64; N]]) ->
     }
 }
 
-fn check_friction(place: impl Display, value: f64) -> Result<(), SceneError> {
+pub(crate) fn check_friction(place: impl Display, value: f64) -> Result<(), SceneError> {
     if value < 0.0 {
         return Err(SceneError::NegativeFriction { place: place.to_string(), value });
     }

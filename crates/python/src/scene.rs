@@ -108,7 +108,7 @@ pub fn options(
     BodyOptions { name, density, friction, fixed, own }
 }
 
-fn raised<T>(result: Result<T, SceneError>) -> PyResult<T> {
+pub fn raised<T>(result: Result<T, SceneError>) -> PyResult<T> {
     result.map_err(|error| scene_error(&error))
 }
 
@@ -137,7 +137,7 @@ impl Scene {
     }
 
     /// A body is added whole or not at all: what a panic left behind is a scene.
-    fn lock(&self) -> MutexGuard<'_, Arc<AnyScene>> {
+    pub fn lock(&self) -> MutexGuard<'_, Arc<AnyScene>> {
         self.core.lock().unwrap_or_else(PoisonError::into_inner)
     }
 

@@ -15,6 +15,7 @@ from drystone.overlaps import names_in, titled
 from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
+from drystone.pictures.loads import draw_loads
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.overlaps import draw_overlaps
 from drystone.pictures.shapes import (
@@ -45,14 +46,20 @@ def scene_figure(scene: Scene) -> Figure:
     movable = [body for body in bodies if not body.fixed]
     overlaps = scene.overlaps
     red = names_in(overlaps)
-    canvas = fitted(bodies, *titled(scene, overlaps))
+    canvas = fitted(bodies, *titled(scene, overlaps), key=bool(scene.loads))
     fills = {b.name: style.FALLING if b.name in red else style.STONE for b in movable}
     draw_fixed(canvas, bodies)
     draw_blocks(canvas, bodies, fills, dict.fromkeys(red, style.FALL))
     if overlaps:
         draw_overlaps(canvas, bodies, overlaps)
     draw_labels(canvas, bodies, {name: name for name in fills}, fills)
+    draw_loads(canvas, scene, fills, _longest(canvas, movable), key_at=0.0)
     return canvas.figure
+
+
+def _longest(canvas: Canvas, blocks: Sequence[Body]) -> float:
+    """Of the arrows, metres."""
+    return min(0.12 * canvas.diagonal, 1.1 * typical_size(blocks))
 
 
 def verdict_figure(verdict: Verdict) -> Figure:
@@ -70,8 +77,9 @@ def verdict_figure(verdict: Verdict) -> Figure:
     draw_blocks(canvas, bodies, fills, dict.fromkeys(falling, style.FALL))
     draw_labels(canvas, bodies, {name: name for name in fills}, fills)
     blocks = [body for body in bodies if body.name in present]
-    longest = min(0.12 * canvas.diagonal, 1.1 * typical_size(blocks))
+    longest = _longest(canvas, blocks)
     _draw_forces(canvas, verdict, longest)
+    draw_loads(canvas, verdict.scene, present, longest)
     if falling:
         _draw_fall(canvas, verdict, blocks, longest)
     return canvas.figure

@@ -16,6 +16,7 @@ from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.axonometry import View
 from drystone.pictures.canvas import Canvas, fitted
+from drystone.pictures.loads import draw_loads
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_dashed, draw_solids
@@ -38,10 +39,14 @@ def scene_figure(scene: Scene) -> Figure:
     movable = [body.name for body in drawing.bodies if not body.fixed]
     overlaps = scene.overlaps
     red = names_in(overlaps)
-    canvas = fitted(drawing.outlines, *titled(scene, overlaps))
+    canvas = fitted(drawing.outlines, *titled(scene, overlaps), key=bool(scene.loads))
     fills = {name: style.FALLING if name in red else style.STONE for name in movable}
     labels = {name: name for name in movable}
     draw_solids(canvas, drawing, fills, dict.fromkeys(red & set(movable), style.FALL), labels)
+    if scene.loads:
+        present = [outline for outline in drawing.outlines if outline.name in fills]
+        longest = min(0.12 * canvas.diagonal, 0.6 * typical_size(present))
+        draw_loads(canvas, scene, fills, longest, drawing.view.flat, key_at=0.0)
     return canvas.figure
 
 
@@ -58,6 +63,7 @@ def verdict_figure(verdict: Verdict) -> Figure:
     longest = min(0.12 * canvas.diagonal, 0.6 * typical_size(present))
     points, vectors = verdict.forces.points, verdict.forces.vectors
     draw_forces(canvas, drawing, points, vectors, verdict.scene.gravity, longest)
+    draw_loads(canvas, verdict.scene, fills, longest, drawing.view.flat)
     if falling:
         _draw_fall(canvas, drawing, verdict, longest, typical_size(present))
     return canvas.figure

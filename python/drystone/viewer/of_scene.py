@@ -27,5 +27,8 @@ def scene_recording(scene: Scene) -> Recording:
         states=np.array(states, dtype=np.uint8).reshape(1, len(scene)),
         gravity=scene.gravity,
         captions=[(0, "Red blocks overlap." if overlaps else "The scene as it is given.")],
-        notes=[f"Overlap of {line}." for line in said(overlaps)],
+        notes=[
+            *(f"Overlap of {line}." for line in said(overlaps)),
+            *(f"Load {load.name}: {load.force} N on {load.body}." for load in scene.loads),
+        ],
     )

@@ -35,7 +35,7 @@ pub struct Assembly {
     components: &'static [usize],
     contacts: ContactSet,
     movable: Vec<usize>,
-    /// Mass of the heaviest block, kg.
+    /// Mass of the heaviest block, kg: loads count as the mass that would weigh as much.
     heaviest: f64,
     generators: Vec<Generator>,
     /// Axes of the cones of the contacts that have friction, and which of them is a contact's.
@@ -71,8 +71,11 @@ impl Assembly {
         let gravity = S::in_space(scene.gravity());
         let load = |&body: &usize| {
             let [x, y, z] = gravity.map(|g| bodies[body].mass * g);
-            picked([x, y, z, 0.0, 0.0, 0.0])
+            let (weight, load) = ([x, y, z, 0.0, 0.0, 0.0], bodies[body].load);
+            picked(std::array::from_fn(|k| weight[k] + load[k]))
         };
+        let unit = Some(length(gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+        let burden = |&body: &usize| bodies[body].mass + bodies[body].load_size() / unit;
         let assembly = Self {
             gravity,
             cones,
@@ -84,7 +87,7 @@ impl Assembly {
             generators_on: vec![Vec::new(); movable.len()],
             inverse_mass: movable.iter().flat_map(|&body| picked(bodies[body].inverse_mass())).collect(),
             applied: movable.iter().flat_map(load).collect(),
-            heaviest: movable.iter().map(|&body| bodies[body].mass).fold(0.0, f64::max),
+            heaviest: movable.iter().map(burden).fold(0.0, f64::max),
             bodies,
             movable,
         };
@@ -216,7 +219,7 @@ impl Assembly {
         &self.inverse_mass[self.components.len() * block..self.components.len() * (block + 1)]
     }
 
-    /// Applied wrench on a movable block, in the order of its rows: its weight, N and N m.
+    /// Applied wrench on a movable block, in the order of its rows: its weight and permanent loads, N and N m.
     pub fn applied(&self, block: usize) -> &[f64] {
         &self.applied[self.components.len() * block..self.components.len() * (block + 1)]
     }
@@ -231,7 +234,16 @@ impl Assembly {
             let along = |wrench: &Wrench| (0..3).map(|k| wrench.value[k] * gravity[k]).sum::<f64>();
             generator.wrenches.iter().map(along).sum()
         };
-        let b = self.generators.iter().map(pull).collect();
+        let loaded = |wrench: &Wrench| -> f64 {
+            let (part, inverse) = (self.body(wrench.block), self.inverse_mass(wrench.block));
+            let along = self.components.iter().zip(inverse);
+            along.map(|(&k, inverse)| wrench.value[k] * part.load[k] * inverse).sum()
+        };
+        let push = |generator: &Generator| generator.wrenches.iter().map(loaded).sum::<f64>();
+        let b = match self.bodies.iter().any(|body| body.load != [0.0; 6]) {
+            false => self.generators.iter().map(pull).collect(),
+            true => self.generators.iter().map(|generator| pull(generator) + push(generator)).collect(),
+        };
         Problem::from_generators_and_q(&self.columns(self.generators.iter()), &self.inverse_mass, b)
             .expect("a validated scene has finite masses, positions and directions")
     }
@@ -252,12 +264,21 @@ impl Assembly {
         solver
     }
 
-    /// In which the imbalance of a block is measured: its weight for forces, its weight times the radius of gyration for
+    /// The acceleration that a block's own loads give it, weight and others, m/s^2: without gravity the weight is that under
+    /// 1 m/s^2.
+    pub(crate) fn unit_of_acceleration(&self, block: usize) -> f64 {
+        self.weighing() + self.body(block).load_size() * self.inverse_mass(block)[0]
+    }
+
+    fn weighing(&self) -> f64 {
+        Some(length(self.gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0)
+    }
+
+    /// In which the imbalance of a block is measured: its load for forces, its load times the radius of gyration for
     /// moments.
     pub(crate) fn balance_unit(&self, block: usize) -> impl Iterator<Item = f64> + '_ {
-        let gravity = Some(length(self.gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
         let inverse = self.inverse_mass(block);
-        let weight = gravity / inverse[0];
+        let weight = self.weighing() / inverse[0] + self.body(block).load_size();
         self.components.iter().zip(inverse).map(move |(&k, per_inertia)| match k {
             0..3 => weight,
             _ => weight * (inverse[0] / per_inertia).sqrt(),
@@ -280,7 +301,7 @@ impl Assembly {
     /// A block's load in the unit of its rows: one, or less where a block weighs 1e8 times as much.
     fn own_load(&self, block: usize) -> f64 {
         const LIGHTEST: f64 = 1e-8;
-        let mass = |block: usize| self.inverse_mass(block)[0].recip();
+        let mass = |block: usize| self.inverse_mass(block)[0].recip() + self.body(block).load_size() / self.weighing();
         (mass(block) / (LIGHTEST * self.heaviest)).min(1.0)
     }
 

@@ -3,7 +3,7 @@
 use crate::{
     contact::{ContactSet, find_contacts, find_solid_contacts},
     error::SceneError,
-    geometry::{Piece, Polygon, Shape, Solid, cross, dot, minus},
+    geometry::{Piece, Polygon, Shape, Solid, cross, dot, length, minus},
     scene::{Body, Scene, SceneOf},
 };
 
@@ -28,6 +28,8 @@ pub struct Part {
     pub center: [f64; 3],
     /// Distance of the furthest corner from the centre of mass, metres.
     pub radius: f64,
+    /// Wrench of the permanent loads about the centre of mass, N and N m; the weight is not in it.
+    pub load: Components,
 }
 
 /// Shapes of which assemblies are made.
@@ -41,8 +43,21 @@ pub trait Assemble: Shape {
     /// [`SceneError::Overlap`].
     fn contacts(scene: &SceneOf<Self>) -> Result<ContactSet, SceneError>;
 
-    /// A body's mass and place.
-    fn part(body: &Body<Self>) -> Part;
+    /// A body's mass and place, without loads.
+    fn unloaded(body: &Body<Self>) -> Part;
+
+    /// A body's mass, place and loads.
+    fn part(body: &Body<Self>) -> Part {
+        let mut part = Self::unloaded(body);
+        for load in body.loads() {
+            let arm = Self::in_space(Self::turned(&body.pose, load.at));
+            let [x, y, z] = part.along_axes(load.moment);
+            let wrench = part.wrench_at(Self::in_space(load.force), arm);
+            let more = wrench.iter().zip([0.0, 0.0, 0.0, x, y, z]).map(|(at, beside)| at + beside);
+            part.load.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        }
+        part
+    }
 
     /// A body's convex pieces in the world.
     fn pieces(body: &Body<Self>) -> Vec<Piece>;
@@ -60,7 +75,7 @@ impl Assemble for Polygon {
         find_contacts(scene)
     }
 
-    fn part(body: &Body) -> Part {
+    fn unloaded(body: &Body) -> Part {
         Part {
             name: body.name.clone(),
             fixed: body.fixed,
@@ -69,6 +84,7 @@ impl Assemble for Polygon {
             axes: WORLD_AXES,
             center: Self::in_space(body.pose.position),
             radius: body.shape.radius(),
+            load: [0.0; 6],
         }
     }
 
@@ -88,7 +104,7 @@ impl Assemble for Solid {
         find_solid_contacts(scene)
     }
 
-    fn part(body: &Body<Self>) -> Part {
+    fn unloaded(body: &Body<Self>) -> Part {
         let moments = body.moments();
         Part {
             name: body.name.clone(),
@@ -98,6 +114,7 @@ impl Assemble for Solid {
             axes: body.principal_axes().map(|axis| body.pose.rotate(axis).to_array()),
             center: body.pose.position,
             radius: body.shape.radius(),
+            load: [0.0; 6],
         }
     }
 
@@ -113,8 +130,21 @@ impl Assemble for Solid {
 impl Part {
     /// Force and moment about the centre of mass of a force at a point of the world.
     pub fn wrench(&self, force: [f64; 3], point: [f64; 3]) -> Components {
-        let moment = self.along_axes(cross(minus(point, self.center), force));
+        self.wrench_at(force, minus(point, self.center))
+    }
+
+    /// The same of a force at a point seen from the centre of mass.
+    fn wrench_at(&self, force: [f64; 3], arm: [f64; 3]) -> Components {
+        let moment = self.along_axes(cross(arm, force));
         [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
+    }
+
+    /// The size of the permanent loads, N: moments count by the force at the radius of gyration that gives them.
+    pub fn load_size(&self) -> f64 {
+        let [x, y, z, turning @ ..] = self.load;
+        let moments =
+            turning.iter().zip(self.inertia).map(|(moment, inertia)| moment.abs() * (self.mass / inertia).sqrt());
+        length([x, y, z]) + moments.fold(0.0, f64::max)
     }
 
     /// A vector of the world along the principal axes.

@@ -21,7 +21,7 @@ pub use polyhedron::{Edge, MOST_POINTS, Polyhedron, SolidFault};
 pub use pose::Pose;
 pub use pose_in_space::PoseInSpace;
 pub(crate) use principal::{OWN_AXES, principal};
-pub use shape::{Numbers, Shape};
+pub use shape::{Face, Numbers, Shape};
 pub use solid::Solid;
 pub use sweep::Piece;
 pub(crate) use vectors::{cross, dot, length, minus, minus_of, norm, plus_times, product, unit};

@@ -1,6 +1,6 @@
 //! Convex polygons, checked once, in the frame of their centre of mass.
 
-use super::{OWN_AXES, Pose, Shape, Vector, Vector3};
+use super::{Face, OWN_AXES, Pose, Shape, Vector, Vector3};
 use parry2d_f64::mass_properties::{MassProperties, details};
 use thiserror::Error;
 
@@ -175,6 +175,24 @@ impl Shape for Polygon {
 
     fn place(pose: &Pose) -> [f64; 2] {
         pose.position
+    }
+
+    fn turned(pose: &Pose, vector: [f64; 2]) -> [f64; 2] {
+        pose.rotate(vector.into()).to_array()
+    }
+
+    fn seen_from(pose: &Pose, point: [f64; 2]) -> [f64; 2] {
+        let back = Pose { angle: -pose.angle, ..*pose };
+        back.rotate(Vector::from_array(point) - Vector::from_array(pose.position)).to_array()
+    }
+
+    fn faces(&self) -> Vec<Face<[f64; 2]>> {
+        let face = |(a, b): (Vector, Vector)| {
+            let along = b - a;
+            let normal = -along.normalize_or_zero().perp();
+            Face { normal: normal.to_array(), area: along.length(), middle: (0.5 * (a + b)).to_array() }
+        };
+        sides(&self.vertices).map(face).collect()
     }
 
     fn placed(pose: Pose, position: [f64; 2]) -> Pose {

@@ -1,7 +1,7 @@
 //! Convex polyhedra: the hull of points, with the whole of each flat face in one piece.
 
 use super::{
-    Vector3,
+    Face, Vector3,
     hull::{FLAT, Outlined, STRAIGHT, outlined},
 };
 use std::collections::BTreeMap;
@@ -151,6 +151,21 @@ impl Polyhedron {
     /// Area of each face, square metres.
     pub fn areas(&self) -> impl Iterator<Item = f64> + '_ {
         self.faces.iter().map(|face| newell(face, &self.vertices).length() / 2.0)
+    }
+
+    /// The faces with their areas and centroids.
+    pub fn surface(&self) -> impl Iterator<Item = Face<[f64; 3]>> + '_ {
+        self.faces.iter().zip(&self.normals).map(|(face, normal)| {
+            let first = self.vertices[face[0]];
+            let (mut area, mut moment) = (0.0, Vector3::ZERO);
+            for pair in face[1..].windows(2) {
+                let (a, b) = (self.vertices[pair[0]] - first, self.vertices[pair[1]] - first);
+                let part = 0.5 * a.cross(b).dot(*normal);
+                area += part;
+                moment += part / 3.0 * (a + b);
+            }
+            Face { normal: normal.to_array(), area, middle: (first + moment / area).to_array() }
+        })
     }
 
     /// Every edge once.

@@ -1,6 +1,6 @@
 //! What a scene asks of the shape of a block, in the plane and in space.
 
-use super::Vector3;
+use super::{Vector3, vectors::plus_times};
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
@@ -23,6 +23,17 @@ impl<T> Numbers for T where
         + Sync
         + 'static
 {
+}
+
+/// A plane part of a block's surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face<V> {
+    /// Outward, of length one.
+    pub normal: V,
+    /// m^2; in the plane metres.
+    pub area: f64,
+    /// Centroid, metres.
+    pub middle: V,
 }
 
 /// The shape of one block in its own frame, whose origin is the centre of mass: the centroid, unless another was given.
@@ -52,6 +63,20 @@ pub trait Shape: Clone + Debug + PartialEq {
 
     /// Where the frame's origin, the centre of mass, is in the world, metres.
     fn place(pose: &Self::Pose) -> Self::Vector;
+
+    /// A vector of the frame in world axes.
+    fn turned(pose: &Self::Pose, vector: Self::Vector) -> Self::Vector;
+
+    /// A point of the frame in the world.
+    fn in_world(pose: &Self::Pose, point: Self::Vector) -> Self::Vector {
+        plus_times(Self::turned(pose, point), 1.0, &Self::place(pose))
+    }
+
+    /// A point of the world in the frame.
+    fn seen_from(pose: &Self::Pose, point: Self::Vector) -> Self::Vector;
+
+    /// The plane parts of the surface, in the frame; of a block of several pieces those of each.
+    fn faces(&self) -> Vec<Face<Self::Vector>>;
 
     /// The pose with that place instead of its own.
     fn placed(pose: Self::Pose, place: Self::Vector) -> Self::Pose;

@@ -1,7 +1,7 @@
 //! Rigid shapes in space: convex pieces about their common centre of mass.
 
 use super::{
-    PoseInSpace, Shape, Vector3,
+    Face, PoseInSpace, Shape, Vector3,
     polyhedron::{Polyhedron, SolidFault},
     principal,
 };
@@ -105,6 +105,19 @@ impl Shape for Solid {
 
     fn place(pose: &PoseInSpace) -> [f64; 3] {
         pose.position
+    }
+
+    fn turned(pose: &PoseInSpace, vector: [f64; 3]) -> [f64; 3] {
+        pose.rotate(Vector3::from_array(vector)).to_array()
+    }
+
+    fn seen_from(pose: &PoseInSpace, point: [f64; 3]) -> [f64; 3] {
+        let from = Vector3::from_array(point) - Vector3::from_array(pose.position);
+        pose.axes().map(|axis| axis.dot(from))
+    }
+
+    fn faces(&self) -> Vec<Face<[f64; 3]>> {
+        self.pieces.iter().flat_map(Polyhedron::surface).collect()
     }
 
     fn placed(pose: PoseInSpace, position: [f64; 3]) -> PoseInSpace {

@@ -21,10 +21,14 @@
 //! friction (the scene's), fixed (false), and the scene's contact_tolerance (see
 //! [`contact`](crate::contact)). `docs/scene.schema.json` is the format's JSON Schema.
 //!
+//! From version 2 on a body may have "loads" (`{"name", "force" (N, world axes), "at" (m, in the frame of the shape), "moment"
+//! (N m)}`), and the scene a "pair_friction" (`{"bodies": ["a", "b"], "friction"}`) that goes before the friction of bodies.
+//!
 //! Numbers are written with as many digits as they need to come back bit for bit.
 
 mod fields;
 mod file;
+mod loads;
 mod read;
 mod shapes;
 mod unique;
@@ -38,5 +42,5 @@ pub(crate) use write::to_json;
 /// What a scene file's "format" says.
 pub const FORMAT: &str = "drystone-scene";
 
-/// The version written, and the only one so far.
-pub const VERSION: u64 = 1;
+/// The newest version: 1 had no loads and no friction of pairs, and is what is written of a scene without them.
+pub const VERSION: u64 = 2;

@@ -3,7 +3,7 @@
 use super::fields::{Fields, brief, wrong_type};
 use super::shapes::Stored;
 use super::unique::Unique;
-use super::{FORMAT, VERSION, weight};
+use super::{FORMAT, VERSION, loads, weight};
 use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
 use crate::geometry::{Polygon, Solid};
@@ -11,11 +11,11 @@ use crate::interrupt::apart;
 use crate::scene::{BodyOptions, SceneOf};
 use serde_json::Value;
 
-const SCENE_FIELDS: [&str; 7] =
-    ["format", "version", "dimension", "gravity", "friction", "contact_tolerance", "bodies"];
+const SCENE_FIELDS: [&str; 8] =
+    ["format", "version", "dimension", "gravity", "friction", "contact_tolerance", "bodies", "pair_friction"];
 
 /// Fields of a body besides its shape, its place and its weight.
-const BODY_FIELDS: [&str; 3] = ["name", "friction", "fixed"];
+const BODY_FIELDS: [&str; 4] = ["name", "friction", "fixed", "loads"];
 
 /// Operations to parse a byte, about.
 const PARSING: usize = 32;
@@ -50,6 +50,7 @@ fn read<S: Stored>(file: &str, document: &Value) -> Result<SceneOf<S>, SceneErro
     for (index, body) in bodies.iter().enumerate() {
         add_body(&mut scene, file, index, body)?;
     }
+    loads::add_pairs(&mut scene, &head)?;
     Ok(scene)
 }
 
@@ -61,7 +62,7 @@ fn dimension(file: &str, document: &Value) -> Result<u64, FileError> {
     if field("format").and_then(Value::as_str) != Some(FORMAT) {
         return Err(FileError::WrongFormat { file, found: found("format") });
     }
-    if field("version").and_then(Value::as_u64) != Some(VERSION) {
+    if !field("version").and_then(Value::as_u64).is_some_and(|version| (1..=VERSION).contains(&version)) {
         let found = found("version");
         return Err(FileError::UnsupportedVersion { file, found, supported: VERSION });
     }
@@ -88,11 +89,11 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
     };
     let shape = S::shape(&body)?;
     let pose = S::pose(&body)?;
-    S::add(scene, shape, pose, options).map_err(|error| invalid(&body, error))?;
-    Ok(())
+    let index = S::add(scene, shape, pose, options).map_err(|error| invalid(&body, error))?;
+    loads::add_loads(scene, &body, index, pose)
 }
 
-fn invalid(fields: &Fields, error: SceneError) -> SceneError {
+pub(super) fn invalid(fields: &Fields, error: SceneError) -> SceneError {
     let (file, place) = (fields.file.to_owned(), fields.place.clone());
     FileError::Invalid { file, place, error: Box::new(error) }.into()
 }

@@ -2,7 +2,10 @@
 
 use super::shapes::{PoseRecord, ShapeRecord, Stored};
 use super::weight::{self, WeightRecord};
-use super::{FORMAT, VERSION};
+use super::{
+    FORMAT, VERSION,
+    loads::{self, LoadRecord},
+};
 use crate::interrupt::poll;
 use crate::scene::{Body, SceneOf};
 use serde::Serialize;
@@ -20,6 +23,8 @@ struct BodyRecord<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     friction: Option<f64>,
     fixed: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    loads: Vec<LoadRecord<'a>>,
 }
 
 /// The scene as JSON, one body a line so that two versions compare well.
@@ -34,9 +39,16 @@ pub(crate) fn to_json<S: Stored>(scene: &SceneOf<S>) -> String {
         false => format!("[\n{}\n  ]", bodies.join(",\n")),
     };
     let gravity: Vec<String> = scene.gravity().as_ref().iter().copied().map(number).collect();
+    let loaded = scene.bodies().iter().any(|body| !body.loads().is_empty());
+    let pairs: Vec<String> = loads::pairs(scene).iter().map(line).collect();
+    let version = if loaded || !pairs.is_empty() { VERSION } else { 1 };
+    let pairs = match pairs.is_empty() {
+        true => String::new(),
+        false => format!(",\n  \"pair_friction\": [\n{}\n  ]", pairs.join(",\n")),
+    };
     format!(
-        "{{\n  \"format\": \"{FORMAT}\",\n  \"version\": {VERSION},\n  \"dimension\": {},\n  \
-         \"gravity\": [{}],\n  \"friction\": {},\n{tolerance}  \"bodies\": {list}\n}}\n",
+        "{{\n  \"format\": \"{FORMAT}\",\n  \"version\": {version},\n  \"dimension\": {},\n  \
+         \"gravity\": [{}],\n  \"friction\": {},\n{tolerance}  \"bodies\": {list}{pairs}\n}}\n",
         S::DIMENSION,
         gravity.join(", "),
         number(scene.friction()),
@@ -50,8 +62,13 @@ fn body_line<S: Stored>(body: &Body<S>) -> String {
     poll(BODY);
     let (shape, pose) = S::record(body);
     let weight = weight::record(body);
-    let record = BodyRecord { name: &body.name, shape, pose, weight, friction: body.friction, fixed: body.fixed };
-    let text = serde_json::to_string(&record).expect("a record of names and finite numbers");
+    let (friction, fixed, loads) = (body.friction, body.fixed, body.loads().iter().map(loads::record).collect());
+    let record = BodyRecord { name: &body.name, shape, pose, weight, friction, fixed, loads };
+    line(&record)
+}
+
+fn line(record: &impl Serialize) -> String {
+    let text = serde_json::to_string(record).expect("a record of names and finite numbers");
     format!("    {text}")
 }
 

@@ -96,6 +96,17 @@ pub fn extruded(scene: &Scene, depth: f64) -> Result<SceneInSpace, SceneError> {
             }
         };
     }
+    for (index, body) in scene.bodies().iter().enumerate() {
+        for load in body.loads() {
+            // The frames' axes: (x, y) of the plane are x and z.
+            let ([x, y], [a, b], [_, _, m]) = (load.force, load.at, load.moment);
+            solid.push_load(index, Some(load.name.clone()), [x, 0.0, y], [a, 0.0, b], [0.0, -m, 0.0])?;
+        }
+    }
+    let name = |i: usize| scene.bodies()[i].name.as_str();
+    for ([a, b], friction) in scene.pair_frictions() {
+        solid.set_friction(name(a), name(b), friction)?;
+    }
     Ok(solid)
 }
 

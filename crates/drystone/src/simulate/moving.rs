@@ -72,6 +72,24 @@ pub(super) fn inverse_mass<S: Moving>(body: &Body<S>) -> S::Velocity {
     inverse
 }
 
+/// Wrench of a body's permanent loads about its centre of mass, N and N m, the moments about its own axes.
+pub(super) fn permanent<S: Moving>(body: &Body<S>) -> S::Velocity {
+    let part = S::part(body);
+    let mut wrench = S::Velocity::default();
+    S::COMPONENTS.iter().zip(wrench.as_mut()).for_each(|(&k, entry)| *entry = part.load[k]);
+    wrench
+}
+
+/// Adds to a wrench.
+pub(super) fn add<V: Numbers>(sum: &mut V, more: &V) {
+    sum.as_mut().iter_mut().zip(more.as_ref()).for_each(|(sum, more)| *sum += more);
+}
+
+/// The size of a body's permanent loads over its mass, m/s^2: see [`Part::load_size`](crate::formulate::Part::load_size).
+pub(super) fn loaded<S: Moving>(body: &Body<S>) -> f64 {
+    if body.loads().is_empty() { 0.0 } else { S::part(body).load_size() / body.mass() }
+}
+
 /// Numbers of a vector.
 pub(super) fn axes<S: Moving>() -> usize {
     S::Vector::default().as_ref().len()

@@ -14,10 +14,10 @@
 //! taken from its kinetic energy, so that a step never adds energy.
 
 use super::{
-    moving::{Moving, components, is_zero, masses, split},
+    moving::{Moving, components, is_zero, masses, permanent, split},
     velocity_level::wrench,
 };
-use crate::{contact::approach::ApproachOf, scene::SceneOf};
+use crate::{contact::approach::ApproachOf, geometry::product, scene::SceneOf};
 use drystone_lcp::{Counts, Problem, Settings, Solver, Status, cone::Columns};
 
 /// Times the problem is linearised anew. Each leaves a square of what the last one moved, so two are the rule.
@@ -94,6 +94,9 @@ pub(super) fn shift<S: Moving>(scene: &mut SceneOf<S>, velocities: &mut [S::Velo
         let (along, _) = split::<S>(&change[i]);
         let raised = gravity.as_ref().iter().zip(along).map(|(g, x)| g * x).sum::<f64>();
         gained -= body.mass() * raised;
+        if !body.loads().is_empty() {
+            gained -= product(&permanent::<S>(body), &change[i]);
+        }
         let masses = masses(body);
         kinetic += 0.5 * velocities[i].as_ref().iter().zip(masses.as_ref()).map(|(v, m)| m * v * v).sum::<f64>();
         scene.set_pose(i, S::advanced(body, &change[i], 1.0));

@@ -5,7 +5,7 @@ use super::{
     error::StepFailure,
     integrate::advance,
     motionless::motionless_bodies,
-    moving::{Moving, is_zero, split_mut},
+    moving::{Moving, add, is_zero, permanent, split_mut},
     project::{ROUNDS, shift, way_out},
     reuse::Reuse,
     solve::Motion,
@@ -120,7 +120,7 @@ impl<S: Moving> World<S> {
     pub(super) fn free_from(&self, velocities: &[S::Velocity]) -> Vec<S::Velocity> {
         let (gravity, dt) = (self.scene.gravity(), self.options.dt);
         let free = |i: usize| {
-            let (inverse, force) = (&self.inverse_mass[i], &self.forces[i]);
+            let (inverse, force) = (&self.inverse_mass[i], self.wrench_on(i));
             if is_zero(inverse) {
                 return velocities[i];
             }
@@ -133,6 +133,16 @@ impl<S: Moving> World<S> {
             free
         };
         (0..velocities.len()).map(free).collect()
+    }
+
+    /// Pushes of the step and permanent loads on a body, about its own axes.
+    fn wrench_on(&self, i: usize) -> S::Velocity {
+        let body = &self.scene.bodies()[i];
+        let mut total = self.forces[i];
+        if !body.loads().is_empty() {
+            add(&mut total, &permanent::<S>(body));
+        }
+        total
     }
 
     /// Solves the step; again where bodies then meet of which nothing was before a face of the other.
