@@ -125,7 +125,7 @@ pub(crate) fn proves_fall(
     }
     for j in assembly.rows(blocks) {
         let (mut opening, mut size) = (0.0, 0.0);
-        for wrench in &assembly.generators()[j].wrenches {
+        for wrench in assembly.wrenches(&assembly.generators()[j]) {
             let Some(acceleration) = of(wrench.block) else { continue };
             for &k in components {
                 opening += wrench.value[k] * acceleration[k];

@@ -73,14 +73,14 @@ pub fn generators(py: Python<'_>, scene: &Scene, cones: Option<(usize, String)>)
     let (mut indptr, mut indices, mut data) = (vec![0_i64], Vec::new(), Vec::new());
     let (mut bodies, components) = (Vec::new(), assembly.components());
     for generator in assembly.generators() {
-        for wrench in &generator.wrenches {
+        for wrench in assembly.wrenches(generator) {
             let first = components.len() * wrench.block;
             indices.extend((0..components.len()).map(|k| (first + k) as i64));
             data.extend(components.iter().map(|&k| wrench.value[k]));
         }
         indptr.push(indices.len() as i64);
-        let block = |k: usize| generator.wrenches.get(k).map_or(-1, |wrench| wrench.block as i64);
-        bodies.extend([block(0), block(1)]);
+        let mut blocks = generator.blocks().map(|block| block as i64);
+        bodies.extend([blocks.next().unwrap_or(-1), blocks.next().unwrap_or(-1)]);
     }
     let blocks = 0..assembly.blocks();
     let bodies = numpy::PyArrayMethods::reshape(&vector(py, bodies), [assembly.generators().len(), 2])?;
@@ -92,7 +92,7 @@ pub fn generators(py: Python<'_>, scene: &Scene, cones: Option<(usize, String)>)
         applied: vector(py, blocks.clone().flat_map(|block| assembly.applied(block)).copied().collect()).unbind(),
         inverse_mass: vector(py, blocks.flat_map(|block| assembly.inverse_mass(block)).copied().collect()).unbind(),
         bodies: bodies.unbind(),
-        contact: vector(py, assembly.generators().iter().map(|g| g.contact as i64).collect()).unbind(),
+        contact: vector(py, assembly.generators().iter().map(|g| g.contact() as i64).collect()).unbind(),
     })
 }
 

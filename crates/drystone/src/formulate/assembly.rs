@@ -6,7 +6,7 @@ use super::{
     block_set::BlockSet,
     body_space::FrictionCone,
     cones::{Bound, Cones, STEEP, cone_edges},
-    generator::{Bodies, Generator, Wrench},
+    generator::{Generator, Wrench},
     part::{Assemble, Components, Part},
 };
 use crate::{
@@ -100,23 +100,21 @@ impl Assembly {
         for (block, &body) in self.movable.iter().enumerate() {
             block_of[body] = Some(block);
         }
-        let spanning = Bodies { bodies: &self.bodies, movable: |body: usize| block_of[body] };
         self.axis_of = vec![None; self.contacts.contacts.len()];
         for (index, contact) in self.contacts.contacts.iter().enumerate() {
             poll(GENERATOR);
+            let blocks = contact.bodies.map(|body| block_of[body]);
             let directions = self.directions(contact).into_iter();
-            self.generators.extend(directions.map(|direction| spanning.generator(index, contact, direction)));
+            self.generators.extend(directions.map(|direction| Generator::new(index, blocks, direction)));
             // An axis adds no force that the edges do not have, but one number instead of several says that a contact is
             // pressed straight.
             if contact.friction > 0.0 {
                 self.axis_of[index] = Some(self.axes.len());
-                self.axes.push(spanning.generator(index, contact, contact.normal));
+                self.axes.push(Generator::new(index, blocks, contact.normal));
             }
         }
         for (j, generator) in self.generators.iter().enumerate() {
-            for wrench in &generator.wrenches {
-                self.generators_on[wrench.block].push(j);
-            }
+            generator.blocks().for_each(|block| self.generators_on[block].push(j));
         }
         self
     }
@@ -209,6 +207,11 @@ impl Assembly {
         &self.generators
     }
 
+    /// The wrenches of a generator, one for each movable body of its contact.
+    pub fn wrenches(&self, generator: &Generator) -> impl Iterator<Item = Wrench> {
+        generator.wrenches(&self.contacts()[generator.contact()], |block| self.body(block))
+    }
+
     /// Generators that act on a movable block, ascending.
     pub fn generators_on(&self, block: usize) -> &[usize] {
         &self.generators_on[block]
@@ -231,8 +234,8 @@ impl Assembly {
         // be rounding, and all there is where everything falls freely.
         let gravity = self.gravity;
         let pull = |generator: &Generator| -> f64 {
-            let along = |wrench: &Wrench| (0..3).map(|k| wrench.value[k] * gravity[k]).sum::<f64>();
-            generator.wrenches.iter().map(along).sum()
+            let along = |wrench: Wrench| (0..3).map(|k| wrench.value[k] * gravity[k]).sum::<f64>();
+            self.wrenches(generator).map(along).sum()
         };
         let loaded = |wrench: &Wrench| -> f64 {
             let (part, inverse) = (self.body(wrench.block), self.inverse_mass(wrench.block));
@@ -312,13 +315,13 @@ impl Assembly {
 
     /// The generators of a contact, the first of which is known.
     pub(super) fn generators_of(&self, contact: usize, first: usize) -> std::ops::Range<usize> {
-        let own = self.generators[first..].iter().take_while(|generator| generator.contact == contact);
+        let own = self.generators[first..].iter().take_while(|generator| generator.contact() == contact);
         first..first + own.count()
     }
 
     /// Magnitude of a generator in a solution of [`Self::equilibrium`], N.
     pub fn magnitude(&self, solver: &ConeSolver, generator: usize) -> f64 {
-        let contact = self.generators[generator].contact;
+        let contact = self.generators[generator].contact();
         let straight = self.axis_of[contact]
             .map_or(0.0, |axis| self.axis_share(generator) * solver.f(self.generators.len() + axis));
         solver.f(generator) + straight
@@ -326,8 +329,8 @@ impl Assembly {
 
     /// What a force of one newton along the axis of its contact is in a generator, newtons.
     fn axis_share(&self, generator: usize) -> f64 {
-        let Generator { contact, direction, .. } = self.generators[generator];
-        let Contact { friction, normal, .. } = self.contacts()[contact];
+        let direction = self.generators[generator].direction;
+        let Contact { friction, normal, .. } = self.contacts()[self.generators[generator].contact()];
         match () {
             _ if friction > STEEP => f64::from(direction == normal),
             _ if self.in_plane() => 0.5 * friction.hypot(1.0),
@@ -350,7 +353,7 @@ impl Assembly {
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for generator in generators {
             poll(GENERATOR);
-            for wrench in &generator.wrenches {
+            for wrench in self.wrenches(generator) {
                 let first = self.components.len() * wrench.block;
                 let entries = self.components.iter().map(|&k| wrench.value[k]).enumerate();
                 for (row, value) in entries.filter(|&(_, value)| value != 0.0) {
@@ -376,16 +379,13 @@ impl Assembly {
     /// Rows of the complete problem that belong to a sub-assembly: generators between its blocks, and between them
     /// and fixed bodies.
     pub fn rows(&self, blocks: &BlockSet) -> Vec<usize> {
-        let inside = |generator: &Generator| generator.wrenches.iter().all(|wrench| blocks.contains(wrench.block));
+        let inside = |generator: &Generator| generator.blocks().all(|block| blocks.contains(block));
         (0..self.generators.len()).filter(|&j| inside(&self.generators[j])).collect()
     }
 
     /// Rows that a block brings along when it joins a sub-assembly.
     pub fn rows_added(&self, blocks: &BlockSet, added: usize) -> Vec<usize> {
-        let joins = |&j: &usize| {
-            let mut wrenches = self.generators[j].wrenches.iter();
-            wrenches.all(|wrench| wrench.block == added || blocks.contains(wrench.block))
-        };
+        let joins = |&j: &usize| self.generators[j].blocks().all(|block| block == added || blocks.contains(block));
         self.generators_on[added].iter().copied().filter(joins).collect()
     }
 
@@ -425,7 +425,7 @@ impl Assembly {
             if magnitude == 0.0 {
                 continue; // most are
             }
-            for part in self.generators[j].wrenches.iter().filter(|part| part.block == block) {
+            for part in self.wrenches(&self.generators[j]).filter(|part| part.block == block) {
                 self.components.iter().for_each(|&k| wrench[k] += magnitude * part.value[k]);
             }
         }
@@ -440,7 +440,7 @@ impl Assembly {
             |contact: usize, force| force_at(contact, self.contacts()[contact].normal, self.in_plane(), force);
         let mut at: Option<(usize, [f64; 3])> = None;
         for &j in rows {
-            let Generator { contact, direction, .. } = self.generators[j];
+            let (contact, direction) = (self.generators[j].contact(), self.generators[j].direction);
             match &mut at {
                 Some((same, sum)) if *same == contact => (0..3).for_each(|k| sum[k] += direction[k] * f(j)),
                 other => {

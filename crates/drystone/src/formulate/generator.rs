@@ -12,34 +12,48 @@ pub struct Wrench {
     pub value: Components,
 }
 
-/// One unit direction of one contact's friction cone.
-#[derive(Debug, Clone, PartialEq)]
+/// One unit direction of one contact's friction cone. Its wrenches are computed when they are asked for
+/// ([`Assembly::wrenches`](super::Assembly::wrenches)): kept, they would be most of what a large assembly takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Generator {
-    /// Index of the contact.
-    pub contact: usize,
+    contact: u32,
+    /// Of the contact's two bodies: their numbers among the movable blocks, or `FIXED`.
+    blocks: [u32; 2],
     /// Unit direction of the force on the second body; the first body feels its opposite.
     pub direction: [f64; 3],
-    /// One wrench for each movable body of the contact.
-    pub wrenches: Vec<Wrench>,
 }
 
-/// Bodies of a scene, and which of them move.
-pub(super) struct Bodies<'a, F: Fn(usize) -> Option<usize>> {
-    pub bodies: &'a [Part],
-    /// A body's index among the movable blocks.
-    pub movable: F,
-}
+const FIXED: u32 = u32::MAX;
 
-impl<F: Fn(usize) -> Option<usize>> Bodies<'_, F> {
-    /// The generator of a contact along a direction.
-    pub fn generator(&self, index: usize, contact: &Contact, direction: [f64; 3]) -> Generator {
-        let [a, b] = contact.bodies;
-        let parts = [self.wrench(contact, a, direction.map(|d| -d)), self.wrench(contact, b, direction)];
-        Generator { contact: index, direction, wrenches: parts.into_iter().flatten().collect() }
+impl Generator {
+    /// `blocks` are those of the contact's bodies that move.
+    pub(super) fn new(contact: usize, blocks: [Option<usize>; 2], direction: [f64; 3]) -> Self {
+        let blocks = blocks.map(|block| block.map_or(FIXED, |block| block as u32));
+        Self { contact: contact as u32, blocks, direction }
     }
 
-    fn wrench(&self, contact: &Contact, body: usize, direction: [f64; 3]) -> Option<Wrench> {
-        let block = (self.movable)(body)?;
-        Some(Wrench { block, value: self.bodies[body].wrench(direction, contact.point) })
+    /// Index of the contact.
+    pub fn contact(&self) -> usize {
+        self.contact as usize
+    }
+
+    /// The movable blocks that it acts on, that of the contact's first body before that of the second.
+    pub fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
+        self.blocks.into_iter().filter(|&block| block != FIXED).map(|block| block as usize)
+    }
+
+    /// Its wrenches on these blocks: force and moment for 1 N. `part` is the body of a block.
+    pub(super) fn wrenches<'a>(
+        self,
+        contact: &'a Contact,
+        part: impl Fn(usize) -> &'a Part + 'a,
+    ) -> impl Iterator<Item = Wrench> + 'a {
+        [(0, -1.0), (1, 1.0)].into_iter().filter(move |&(side, _)| self.blocks[side] != FIXED).map(
+            move |(side, sign)| {
+                let block = self.blocks[side] as usize;
+                let force = self.direction.map(|d| sign * d);
+                Wrench { block, value: part(block).wrench(force, contact.point) }
+            },
+        )
     }
 }

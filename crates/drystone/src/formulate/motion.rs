@@ -66,7 +66,7 @@ impl Assembly {
             }
         }
         for (place, &j) in active.iter().enumerate() {
-            for wrench in &self.generators()[j].wrenches {
+            for wrench in self.wrenches(&self.generators()[j]) {
                 let at = row(wrench.block)?;
                 for (k, &component) in self.components().iter().enumerate() {
                     let value = wrench.value[component];
@@ -98,6 +98,6 @@ impl Assembly {
     fn lightest(&self, generator: &Generator) -> f64 {
         let directions = if self.in_plane() { 2 } else { 3 };
         let load = |block: usize| self.applied(block)[..directions].iter().map(|load| load * load).sum::<f64>().sqrt();
-        generator.wrenches.iter().map(|wrench| load(wrench.block)).fold(f64::INFINITY, f64::min)
+        generator.blocks().map(load).fold(f64::INFINITY, f64::min)
     }
 }

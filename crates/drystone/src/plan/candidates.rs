@@ -33,20 +33,23 @@ pub(super) struct Upward<'a> {
     touching: &'a Touching,
     /// How far each sub-assembly on the way has got: a place in the upward order.
     tried: Vec<usize>,
+    /// For each of them: all blocks before this place are in it.
+    full: Vec<usize>,
     /// Where the block handed out last is in that order.
     last: usize,
 }
 
 impl<'a> Upward<'a> {
     pub fn new(touching: &'a Touching) -> Self {
-        Self { touching, tried: vec![0], last: 0 }
+        Self { touching, tried: vec![0], full: vec![0], last: 0 }
     }
 }
 
 impl Candidates for Upward<'_> {
     fn next(&mut self, current: &BlockSet) -> Option<usize> {
-        let tried = self.tried.last_mut()?;
-        let (place, block) = self.touching.candidate(current, *tried)?;
+        let (tried, full) = (self.tried.last_mut()?, self.full.last_mut()?);
+        *full = self.touching.full(current, *full);
+        let (place, block) = self.touching.candidate(current, *full.max(tried))?;
         (*tried, self.last) = (place + 1, place);
         Some(block)
     }
@@ -57,9 +60,11 @@ impl Candidates for Upward<'_> {
 
     fn came(&mut self, _block: usize) {
         self.tried.push(0);
+        self.full.extend(self.full.last().copied()); // what grows holds them too
     }
 
     fn went(&mut self, keep: usize, _gone: &[usize]) {
         self.tried.truncate(keep + 1);
+        self.full.truncate(keep + 1);
     }
 }

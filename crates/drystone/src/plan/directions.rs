@@ -25,11 +25,11 @@ pub(super) fn at_contacts(assembly: &Assembly, given: &[[f64; 3]]) -> Vec<Vec<[f
     let of_all = of_all.fold(Vec::new(), with_new);
     let mut directions = vec![of_all; assembly.blocks()];
     for generator in assembly.generators() {
-        let normal = assembly.contacts()[generator.contact].normal;
+        let normal = assembly.contacts()[generator.contact()].normal;
         let ways = across(assembly, normal).into_iter().chain([normal]).flat_map(both);
-        for wrench in &generator.wrenches {
-            let list = std::mem::take(&mut directions[wrench.block]);
-            directions[wrench.block] = ways.clone().fold(list, with_new);
+        for block in generator.blocks() {
+            let list = std::mem::take(&mut directions[block]);
+            directions[block] = ways.clone().fold(list, with_new);
         }
     }
     directions

@@ -57,12 +57,13 @@ impl<'a> Onward<'a> {
         let mut blocks = Vec::new();
         for (block, velocity) in motion {
             for &generator in self.assembly.generators_on(*block) {
-                let wrenches = &self.assembly.generators()[generator].wrenches;
-                let Some(other) = wrenches.iter().find(|wrench| !set.contains(wrench.block)) else { continue };
-                let own = wrenches.iter().filter(|wrench| wrench.block == *block);
-                let opening: f64 = own.flat_map(|wrench| wrench.value.iter().zip(velocity)).map(|(w, v)| w * v).sum();
+                let generator = &self.assembly.generators()[generator];
+                let Some(other) = generator.blocks().find(|&block| !set.contains(block)) else { continue };
+                let own = self.assembly.wrenches(generator).filter(|wrench| wrench.block == *block);
+                let opening: f64 =
+                    own.flat_map(|wrench| wrench.value.into_iter().zip(velocity)).map(|(w, v)| w * v).sum();
                 if opening < -CLOSING * fastest {
-                    blocks.push(other.block);
+                    blocks.push(other);
                 }
             }
         }

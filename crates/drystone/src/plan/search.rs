@@ -96,6 +96,12 @@ impl<'a> Search<'a> {
     /// Grows the current sub-assembly by the first candidate that stands, and steps back where none does. After
     /// [`Outcome::TestLimit`] it can go on.
     pub fn run(&mut self, test: &mut dyn StabilityTest, clock: &mut Clock<'_>) -> Result<Outcome, PlanError> {
+        let ended = self.go_on(test, clock);
+        self.keep_best();
+        ended
+    }
+
+    fn go_on(&mut self, test: &mut dyn StabilityTest, clock: &mut Clock<'_>) -> Result<Outcome, PlanError> {
         let (blocks, mut shortcuts) = (self.touching.blocks(), 0);
         while self.placed.len() < blocks {
             let Some(added) = self.candidates.next(&self.current) else {
@@ -196,6 +202,10 @@ impl<'a> Search<'a> {
         self.position[added] = self.placed.len();
         self.placed.push(added);
         self.candidates.came(added);
+    }
+
+    /// Before anything is taken off: a copy for each block that comes would take time with the square of the blocks.
+    fn keep_best(&mut self) {
         if self.placed.len() > self.best.len() {
             self.best.clone_from(&self.placed);
         }
@@ -238,6 +248,7 @@ impl<'a> Search<'a> {
 
     /// Takes all but the first blocks off again, and says which of them was the first to come.
     fn retreat(&mut self, keep: usize, test: &mut dyn StabilityTest) -> usize {
+        self.keep_best();
         let gone = self.placed.split_off(keep);
         for &block in &gone {
             self.current.remove(block);

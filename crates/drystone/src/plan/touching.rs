@@ -17,11 +17,12 @@ impl Touching {
         let mut neighbours = vec![Vec::new(); blocks];
         let mut on_support = vec![false; blocks];
         for generator in assembly.generators() {
-            match generator.wrenches[..] {
-                [one] => on_support[one.block] = true,
-                [a, b] => {
-                    neighbours[a.block].push(b.block);
-                    neighbours[b.block].push(a.block);
+            let mut touched = generator.blocks();
+            match (touched.next(), touched.next()) {
+                (Some(one), None) => on_support[one] = true,
+                (Some(a), Some(b)) => {
+                    neighbours[a].push(b);
+                    neighbours[b].push(a);
                 }
                 _ => {}
             }
@@ -47,6 +48,11 @@ impl Touching {
     /// be a waste.
     pub fn touches(&self, block: usize, set: &BlockSet) -> bool {
         self.on_support[block] || self.neighbours[block].iter().any(|&other| set.contains(other))
+    }
+
+    /// The first place of the upward order, from `from` on, whose block is not in a sub-assembly.
+    pub fn full(&self, set: &BlockSet, from: usize) -> usize {
+        (from..self.blocks()).find(|&place| !set.contains(self.upward[place])).unwrap_or(self.blocks())
     }
 
     /// The next block, from place `from` of the upward order on, that can be put on a sub-assembly; and its place.

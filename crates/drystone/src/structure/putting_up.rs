@@ -74,8 +74,5 @@ impl PuttingUp<'_> {
 
 /// For every generator of a block the other block, None for a fixed body.
 pub(super) fn neighbours(assembly: &Assembly, block: usize) -> impl Iterator<Item = Option<usize>> {
-    assembly.generators_on(block).iter().map(move |&j| {
-        let wrenches = &assembly.generators()[j].wrenches;
-        wrenches.iter().map(|wrench| wrench.block).find(|&other| other != block)
-    })
+    assembly.generators_on(block).iter().map(move |&j| assembly.generators()[j].blocks().find(|&other| other != block))
 }

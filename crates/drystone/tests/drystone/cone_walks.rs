@@ -113,7 +113,7 @@ impl<'a> Walk<'a> {
 
     /// No force pulls, and every block is at rest to a billionth of gravity.
     fn balances(&self) {
-        let inside = |j: usize| self.assembly.generators()[j].wrenches.iter().all(|w| self.blocks.contains(&w.block));
+        let inside = |j: usize| self.assembly.generators()[j].blocks().all(|block| self.blocks.contains(&block));
         let f = |j: usize| {
             let force = self.assembly.magnitude(&self.solver, j);
             assert!(force >= 0.0 && (inside(j) || force == 0.0), "force {force} on generator {j}");

@@ -153,7 +153,7 @@ fn without_the_others(scene: &Scene, keep: &[usize]) -> Scene {
 
 /// A generator by what stays the same in every sub-assembly: the bodies' names, the feature, the side of the cone.
 fn identity(assembly: &Assembly, generator: &Generator) -> String {
-    let contact = &assembly.contacts()[generator.contact];
+    let contact = &assembly.contacts()[generator.contact()];
     let [a, b] = contact.bodies.map(|body| &assembly.bodies()[body].name);
     let [nx, ny, _] = contact.normal;
     let side = generator.direction[1] * nx - generator.direction[0] * ny;

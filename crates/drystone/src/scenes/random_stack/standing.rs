@@ -51,7 +51,7 @@ impl Standing {
         let own = near.len();
         let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         for &generator in assembly.generators_on(own) {
-            for wrench in &assembly.generators()[generator].wrenches {
+            for wrench in assembly.wrenches(&assembly.generators()[generator]) {
                 let block = near.get(wrench.block).copied().unwrap_or(self.kept);
                 let values = PLANE.map(|component| wrench.value[component]);
                 for (row, value) in rows(block..block + 1).zip(values).filter(|&(_, value)| value != 0.0) {
