@@ -237,12 +237,12 @@ impl Assembly {
             let along = |wrench: Wrench| (0..3).map(|k| wrench.value[k] * gravity[k]).sum::<f64>();
             self.wrenches(generator).map(along).sum()
         };
-        let loaded = |wrench: &Wrench| -> f64 {
+        let loaded = |wrench: Wrench| -> f64 {
             let (part, inverse) = (self.body(wrench.block), self.inverse_mass(wrench.block));
             let along = self.components.iter().zip(inverse);
             along.map(|(&k, inverse)| wrench.value[k] * part.load[k] * inverse).sum()
         };
-        let push = |generator: &Generator| generator.wrenches.iter().map(loaded).sum::<f64>();
+        let push = |generator: &Generator| self.wrenches(generator).map(loaded).sum::<f64>();
         let b = match self.bodies.iter().any(|body| body.load != [0.0; 6]) {
             false => self.generators.iter().map(pull).collect(),
             true => self.generators.iter().map(|generator| pull(generator) + push(generator)).collect(),
@@ -431,6 +431,12 @@ impl Assembly {
         }
         self.components.iter().zip(self.inverse_mass(block)).for_each(|(&k, inverse)| wrench[k] *= inverse);
         wrench
+    }
+
+    /// A normal force at a contact point, N.
+    pub(crate) fn normal_force(&self, contact: usize, size: f64) -> ContactForce {
+        let normal = self.contacts()[contact].normal;
+        force_at(contact, normal, self.in_plane(), normal.map(|n| size * n))
     }
 
     /// The force at every contact point that has a generator among `rows` (ascending).
