@@ -9,9 +9,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from drystone import imports, lcp, meshes, scenes, viewer
+    from drystone import contact, imports, lcp, meshes, scenes, viewer
     from drystone._core import (
         BusyError,
+        ContactError,
         DrystoneError,
         LcpError,
         SceneError,
@@ -38,6 +39,7 @@ __all__ = [
     "Body",
     "BusyError",
     "Contact",
+    "ContactError",
     "ContactForce",
     "ContactForces",
     "DrystoneError",
@@ -63,6 +65,7 @@ __all__ = [
     "World",
     "__version__",
     "check",
+    "contact",
     "imports",
     "lcp",
     "meshes",
@@ -73,12 +76,13 @@ __all__ = [
     "viewer",
 ]
 
-_MODULES = ("imports", "lcp", "meshes", "scenes", "viewer")
+_MODULES = ("contact", "imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
     "Blocked": "drystone.plan_answer",
     "Body": "drystone.body",
     "BusyError": "drystone._core",
     "Contact": "drystone.body",
+    "ContactError": "drystone._core",
     "ContactForce": "drystone.contact_force",
     "ContactForces": "drystone.contact_force",
     "DrystoneError": "drystone._core",

@@ -10,8 +10,10 @@ __all__ = [
     "Body",
     "BusyError",
     "Contact",
+    "ContactError",
     "ContactForce",
     "ContactForces",
+    "ContactSolution",
     "DrystoneError",
     "Generators",
     "LcpError",
@@ -39,6 +41,7 @@ __all__ = [
     "add_pressure",
     "catalogue",
     "check",
+    "contact_solve",
     "disassembly_graph",
     "forces_along",
     "generators",
@@ -55,6 +58,7 @@ __version__: str
 class DrystoneError(Exception): ...
 class SceneError(DrystoneError, ValueError): ...
 class LcpError(DrystoneError, ValueError): ...
+class ContactError(DrystoneError, ValueError): ...
 class StartError(LcpError): ...
 class SimulationError(DrystoneError, ValueError): ...
 class StepError(DrystoneError): ...
@@ -493,6 +497,17 @@ class LcpSolution:
     refactorisations: int
 
 @final
+class ContactSolution:
+    impulses: NDArray[np.float64]
+    velocities: NDArray[np.float64]
+    error: float
+    tolerance: float
+    status: str
+    islands: int
+    sweeps: int
+    newton_steps: int
+
+@final
 class LcpSnapshot: ...
 
 @final
@@ -611,3 +626,16 @@ def lcp_solve(
     pivot_limit: int | None = None,
 ) -> LcpSolution:
     """M in compressed columns. `start`: (indices of the sub-problem, its solution z)."""
+
+def contact_solve(
+    dimension: int,
+    mass: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],
+    jacobian: tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]],
+    friction: NDArray[np.float64],
+    free: NDArray[np.float64],
+    offset: NDArray[np.float64],
+    start: NDArray[np.float64] | None = None,
+    tolerance: float | None = None,
+    scale: float = 0.0,
+) -> ContactSolution:
+    """M in compressed columns, J in compressed rows."""

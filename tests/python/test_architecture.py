@@ -51,6 +51,8 @@ def _sources(*folders: str) -> list[Path]:
 def test_who_may_know_whom() -> None:
     for path in _sources("crates/lcp/src"):
         assert not re.search(r"\bdrystone::", path.read_text()), path
+    for path in _sources("crates/contact/src"):
+        assert not re.search(r"\bdrystone::", path.read_text()), path
     physics = "crates/drystone/src/"
     for path in _sources(physics + "geometry", physics + "contact", physics + "io"):
         assert "drystone_lcp" not in path.read_text(), path

@@ -17,6 +17,7 @@ struct Exceptions {
     base: Py<PyType>,
     scene: Py<PyType>,
     lcp: Py<PyType>,
+    contact: Py<PyType>,
     start: Py<PyType>,
     simulation: Py<PyType>,
     step: Py<PyType>,
@@ -38,13 +39,14 @@ fn exceptions(py: Python<'_>) -> PyResult<&'static Exceptions> {
         let both = [base.bind(py), &value_error];
         let scene = make("SceneError", "A scene that is not valid; says what to mend.", &both)?;
         let lcp = make("LcpError", "A complementarity problem that is not valid.", &both)?;
+        let contact = make("ContactError", "A contact problem that is not valid; says what to mend.", &both)?;
         let start = make("StartError", "A start that does not fit the problem.", &[lcp.bind(py)])?;
         let simulation = make("SimulationError", "Bad input to a simulation; says what to mend.", &both)?;
         let step = make("StepError", "A step that could not be made; the world is as before.", &[base.bind(py)])?;
         let busy_bases = [base.bind(py), &py.get_type::<PyRuntimeError>()];
         let busy =
             make("BusyError", "Another call, of another thread or around this one, has the object.", &busy_bases)?;
-        Ok(Exceptions { base, scene, lcp, start, simulation, step, busy })
+        Ok(Exceptions { base, scene, lcp, contact, start, simulation, step, busy })
     })
 }
 
@@ -54,6 +56,7 @@ pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("DrystoneError", known.base.bind(py))?;
     module.add("SceneError", known.scene.bind(py))?;
     module.add("LcpError", known.lcp.bind(py))?;
+    module.add("ContactError", known.contact.bind(py))?;
     module.add("StartError", known.start.bind(py))?;
     module.add("SimulationError", known.simulation.bind(py))?;
     module.add("StepError", known.step.bind(py))?;
@@ -76,6 +79,10 @@ pub fn lcp_error(error: &LcpError) -> PyErr {
         LcpError::Start(start) => raise(|known| &known.start, start.to_string()),
         other => raise(|known| &known.lcp, other.to_string()),
     }
+}
+
+pub fn contact_error(error: impl std::fmt::Display) -> PyErr {
+    raise(|known| &known.contact, error.to_string())
 }
 
 /// Another call has the object.

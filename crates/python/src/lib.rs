@@ -1,6 +1,7 @@
 //! The Python extension module `drystone._core`: conversions only. The public names live in `python/drystone`.
 
 mod arrays;
+mod contact;
 mod contact_forces;
 mod coordinates;
 mod errors;
@@ -43,6 +44,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<run::Run>()?;
     module.add_class::<lcp::LcpSolution>()?;
     module.add_class::<lcp_solver::LcpSolver>()?;
+    module.add_class::<contact::ContactSolution>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;
     module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(loads::add_load, module)?)?;
@@ -57,5 +59,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(forces::forces_along, module)?)?;
     module.add_function(wrap_pyfunction!(plan::disassembly_graph, module)?)?;
     module.add_function(wrap_pyfunction!(lcp::lcp_solve, module)?)?;
+    module.add_function(wrap_pyfunction!(contact::contact_solve, module)?)?;
     Ok(())
 }

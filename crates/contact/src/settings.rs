@@ -1,0 +1,23 @@
+//! What an answer must be, and how long it is looked for.
+
+/// Tolerances and limits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Largest error of Coulomb's law that counts as solved, m/s. None: [`RELATIVE_TOLERANCE`] times the largest relative velocity
+    /// that the contacts would have without impulses, or times `scale` if that is larger.
+    pub tolerance: Option<f64>,
+    /// A speed that the caller thinks of as one, m/s: what gravity gives in a step, say.
+    pub scale: f64,
+    /// Most Newton steps in one island.
+    pub newton_steps: usize,
+}
+
+/// A tenth of the digits of a double are lost in a well scaled problem, and as many again where friction decides: this
+/// leaves four.
+pub const RELATIVE_TOLERANCE: f64 = 1e-8;
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { tolerance: None, scale: 0.0, newton_steps: 400 }
+    }
+}
