@@ -30,7 +30,8 @@ pub(super) struct BodyMatrix<const B: usize> {
     starts: Vec<usize>,
     rows: Vec<usize>,
     values: Vec<f64>,
-    /// For each point where the block between its two bodies lies, counted in blocks from the top of the later one's columns.
+    /// For each point, and each pair of its bodies, where the block between the two lies, counted in blocks from the top of the
+    /// later one's columns.
     between: Vec<usize>,
     symbolic: SymbolicCholesky<usize>,
     factor: Vec<f64>,
@@ -40,12 +41,12 @@ pub(super) struct BodyMatrix<const B: usize> {
 
 impl<const B: usize> BodyMatrix<B> {
     /// Analyses the pattern. None if there is no memory for it.
-    pub fn new<const D: usize>(problem: &Scaled<B, D>) -> Option<Self> {
+    pub fn new<const D: usize, const N: usize>(problem: &Scaled<B, D, N>) -> Option<Self> {
         let (size, bodies) = (B, problem.load.len());
         let place = order(problem)?;
         let mut above: Vec<Vec<usize>> = vec![Vec::new(); bodies];
         for point in &problem.points {
-            if let Some((upper, lower)) = pair(point, &place) {
+            for (upper, lower) in pairs(point, &place).flatten() {
                 above[lower].push(upper);
             }
         }
@@ -53,8 +54,9 @@ impl<const B: usize> BodyMatrix<B> {
             above.sort_unstable();
             above.dedup();
         });
-        let between = problem.points.iter().map(|point| {
-            let (upper, lower) = pair(point, &place)?;
+        let found = problem.points.iter().flat_map(|point| pairs(point, &place));
+        let between = found.map(|pair| {
+            let (upper, lower) = pair?;
             above[lower].binary_search(&upper).ok()
         });
         let between = between.map(Option::unwrap_or_default).collect();
@@ -83,30 +85,40 @@ impl<const B: usize> BodyMatrix<B> {
         Some(Self { place, starts, rows, values, between, symbolic, factor, memory, right: vec![0.0; n] })
     }
 
-    /// Makes it a multiple of the identity.
-    pub fn reset(&mut self, diagonal: f64) {
+    /// Makes it diagonal, with the same number for all unknowns of a body.
+    pub fn reset(&mut self, diagonal: impl Fn(usize) -> f64) {
         self.values.fill(0.0);
-        self.starts[1..].iter().for_each(|&end| self.values[end - 1] = diagonal);
+        for (body, place) in self.place.iter().enumerate() {
+            let value = diagonal(body);
+            self.starts[place * B + 1..][..B].iter().for_each(|&end| self.values[end - 1] = value);
+        }
     }
 
     /// Adds `J' N J` of a point.
-    pub fn add<const D: usize>(&mut self, index: usize, point: &ScaledPoint<B, D>, weight: &[[f64; D]; D]) {
+    pub fn add<const D: usize, const N: usize>(
+        &mut self,
+        index: usize,
+        point: &ScaledPoint<B, D, N>,
+        weight: &[[f64; D]; D],
+    ) {
         let weighted = point.jacobian.each_ref().map(|jacobian| weighted(jacobian, weight));
-        for side in [0, 1] {
+        for (side, weighted) in weighted.iter().enumerate() {
             let Some(body) = point.body(side) else { continue };
             let first = self.place[body] * B;
             for column in 0..B {
                 let end = self.starts[first + column + 1];
                 for (row, value) in self.values[end - 1 - column..end].iter_mut().enumerate() {
-                    *value += entry(&point.jacobian[side], row, &weighted[side], column);
+                    *value += entry(&point.jacobian[side], row, weighted, column);
                 }
             }
         }
-        if let (Some(a), Some(b)) = (point.body(0), point.body(1)) {
-            let (upper, lower) = if self.place[a] < self.place[b] { (0, 1) } else { (1, 0) };
-            let first = self.place[[a, b][lower]] * B;
+        let first_pair = index * two_of(N).count();
+        for (pair, [one, other]) in two_of(N).enumerate() {
+            let (Some(a), Some(b)) = (point.body(one), point.body(other)) else { continue };
+            let (upper, lower) = if self.place[a] < self.place[b] { (one, other) } else { (other, one) };
+            let first = self.place[a].max(self.place[b]) * B;
             for column in 0..B {
-                let start = self.starts[first + column] + self.between[index] * B;
+                let start = self.starts[first + column] + self.between[first_pair + pair] * B;
                 for (row, value) in self.values[start..start + B].iter_mut().enumerate() {
                     *value += entry(&point.jacobian[upper], row, &weighted[lower], column);
                 }
@@ -184,22 +196,32 @@ fn entry<const B: usize, const D: usize>(
     (0..D).map(|k| jacobian[k][row] * product[k][column]).sum()
 }
 
-/// Places of the two bodies of a point, the earlier first.
-fn pair<const B: usize, const D: usize>(point: &ScaledPoint<B, D>, place: &[usize]) -> Option<(usize, usize)> {
-    let (a, b) = (place[point.body(0)?], place[point.body(1)?]);
-    Some((a.min(b), a.max(b)))
+/// Pairs of so many sides.
+fn two_of(sides: usize) -> impl Iterator<Item = [usize; 2]> {
+    (1..sides).flat_map(|other| (0..other).map(move |one| [one, other]))
+}
+
+/// For each pair of bodies of a point their places, the earlier first; none where one does not move.
+fn pairs<const B: usize, const D: usize, const N: usize>(
+    point: &ScaledPoint<B, D, N>,
+    place: &[usize],
+) -> impl Iterator<Item = Option<(usize, usize)>> {
+    two_of(N).map(|[one, other]| {
+        let (a, b) = (place[point.body(one)?], place[point.body(other)?]);
+        Some((a.min(b), a.max(b)))
+    })
 }
 
 /// Operations of the ordering for each pair: much fewer mostly, but where it fills up.
 const ORDERING: usize = 1024;
 
 /// Place of each body in the order of elimination.
-fn order<const B: usize, const D: usize>(problem: &Scaled<B, D>) -> Option<Vec<usize>> {
+fn order<const B: usize, const D: usize, const N: usize>(problem: &Scaled<B, D, N>) -> Option<Vec<usize>> {
     let bodies = problem.load.len();
     let mut pairs: Vec<(usize, usize)> = problem
         .points
         .iter()
-        .filter_map(|point| Some((point.body(0)?, point.body(1)?)))
+        .flat_map(|point| two_of(N).filter_map(|[one, other]| Some((point.body(one)?, point.body(other)?))))
         .flat_map(|(a, b)| [(a, b), (b, a)])
         .chain((0..bodies).map(|body| (body, body)))
         .collect();

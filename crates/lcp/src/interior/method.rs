@@ -57,21 +57,26 @@ const SHARE: f64 = 0.995;
 /// Weight of the proximal term: of the gap, within bounds. It changes no answer; larger is slower, smaller loses digits.
 const PROXIMAL: f64 = 1e-7;
 const PROXIMAL_BOUNDS: [f64; 2] = [1e-11, 1e-8];
+/// The same where layers give way by one for a force of one: beside them it may be larger, and fewer digits are lost.
+const PROXIMAL_WITH_LAYERS: [f64; 2] = [1e-8, 1e-6];
 /// Weight of the proximal term on the motion where there are no masses.
 const PROXIMAL_MASS: f64 = 1e-9;
+/// The same between layers, where bodies go 1e5 times as far as these give way, or further where something falls.
+const PROXIMAL_MASS_WITH_LAYERS: f64 = 1e-10;
 /// Refinements of a step, each until what is left is rounding.
 const REFINEMENTS: usize = 3;
 const REFINED: f64 = 1e-16;
 
-pub(super) struct Interior<const B: usize, const D: usize> {
-    problem: Scaled<B, D>,
+pub(super) struct Interior<const B: usize, const D: usize, const N: usize> {
+    problem: Scaled<B, D, N>,
     a: Vec<[f64; B]>,
     f: Vec<f64>,
     s: Vec<f64>,
     /// Number of cones.
     cones: usize,
-    /// One in (1); none where a cost takes the place of the masses.
-    mass: f64,
+    /// So many bodies, the first, have no mass: none in (1), all where a cost takes the place of the masses, all but the layers
+    /// where these do.
+    massless: usize,
     /// What a unit of each force costs; with masses the offset.
     cost: Vec<f64>,
 }
@@ -86,8 +91,11 @@ struct Step<const B: usize> {
     correction: Vec<f64>,
     left: Vec<[f64; B]>,
     other: Vec<f64>,
-    /// Weight of the motion itself in the matrix: masses, and a proximal term in their place or where there would be no factor.
-    diagonal: f64,
+    /// Bodies without mass, and what takes the place of it.
+    massless: usize,
+    proximal_mass: f64,
+    /// What is added to the matrix's diagonal where there would be no factor.
+    more: f64,
 }
 
 /// Residuals of (2) at a point.
@@ -102,8 +110,8 @@ struct Residuals<const B: usize> {
     force: f64,
 }
 
-impl<const B: usize, const D: usize> Interior<B, D> {
-    pub fn new(problem: Scaled<B, D>) -> Self {
+impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
+    pub fn new(problem: Scaled<B, D, N>) -> Self {
         let mut f = vec![1.0; problem.forces()];
         let mut cones = f.len();
         for point in problem.points.iter().filter(|point| point.round) {
@@ -111,14 +119,25 @@ impl<const B: usize, const D: usize> Interior<B, D> {
             cones -= 2;
         }
         let a = vec![[0.0; B]; problem.load.len()];
-        Self { a, s: f.clone(), f, cones, mass: 1.0, cost: problem.offset(), problem }
+        Self { a, s: f.clone(), f, cones, massless: 0, cost: problem.offset(), problem }
     }
 
     /// The forces of least cost that hold the bodies, from some that do: (2) with `s = J a + cost` and no masses. Where
     /// costs are of no particular kind these are the ones of a vertex: as many are positive as there are rows, or fewer.
-    pub fn of_least_cost(problem: Scaled<B, D>, forces: &[f64], cost: Vec<f64>) -> Self {
+    pub fn of_least_cost(problem: Scaled<B, D, N>, forces: &[f64], cost: Vec<f64>) -> Self {
         let f = problem.in_own_units(forces);
-        Self { f, s: cost.clone(), cost, mass: 0.0, ..Self::new(problem) }
+        let massless = problem.load.len();
+        Self { f, s: cost.clone(), cost, massless, ..Self::new(problem) }
+    }
+
+    /// The forces of least norm that hold the bodies, the norm being that of what the layers bear: (2) with masses for the layers
+    /// only, which are the bodies from `layers` on.
+    pub fn of_least_norm(problem: Scaled<B, D, N>, layers: usize) -> Self {
+        Self { massless: layers, ..Self::new(problem) }
+    }
+
+    fn has_layers(&self) -> bool {
+        self.massless > 0 && self.massless < self.a.len()
     }
 
     /// None if stopped.
@@ -126,11 +145,15 @@ impl<const B: usize, const D: usize> Interior<B, D> {
         let Some(mut matrix) = BodyMatrix::new(&self.problem) else {
             return Some(self.found(End::OutOfMemory, 0, f64::INFINITY));
         };
-        let mut step = Step::new(self.a.len(), self.f.len());
-        let (mut best, mut since, mut residuals) = (f64::INFINITY, 0, self.residuals());
+        let proximal_mass = if self.has_layers() { PROXIMAL_MASS_WITH_LAYERS } else { PROXIMAL_MASS };
+        let mut step = Step { massless: self.massless, proximal_mass, ..Step::new(self.a.len(), self.f.len()) };
+        if self.has_layers() && !self.begin(&mut matrix, &mut step) {
+            return Some(self.found(End::Stalled, 0, f64::INFINITY));
+        }
+        let (mut best, mut since, mut residuals) = ([f64::INFINITY; 2], 0, self.residuals());
         for iteration in 0..MOST {
             let merit = residuals.merit();
-            if self.mass > 0.0 && iteration > 0 && self.at_rest(&residuals) {
+            if self.massless == 0 && iteration > 0 && self.at_rest(&residuals) {
                 return Some(self.found(End::AtRest, iteration, residuals.gap));
             }
             if merit <= 1.0 {
@@ -140,8 +163,11 @@ impl<const B: usize, const D: usize> Interior<B, D> {
                 true => (LATE_PROGRESS, LATE_PATIENCE, End::Converged),
                 false => (PROGRESS, PATIENCE, End::Stalled),
             };
-            since = if merit < progress * best { 0 } else { since + 1 };
-            best = best.min(merit);
+            // Between layers bodies go far before the forces hold them, and the gap grows on the way.
+            let reached = if self.has_layers() { [residuals.worst, merit] } else { [merit; 2] };
+            let better = (0..2).any(|k| reached[k] < progress * best[k]);
+            since = if better { 0 } else { since + 1 };
+            best = [0, 1].map(|k| reached[k].min(best[k]));
             if !go_on() {
                 return None;
             }
@@ -153,21 +179,60 @@ impl<const B: usize, const D: usize> Interior<B, D> {
         Some(self.found(End::Stalled, MOST, residuals.gap))
     }
 
+    /// Begins where the contacts would be if each gave way by as much as it bears, pushed into the cones: there bodies without
+    /// mass have gone as far as they must, about. False if there is no factor.
+    fn begin(&mut self, matrix: &mut BodyMatrix<B>, way: &mut Step<B>) -> bool {
+        let problem = &self.problem;
+        matrix.reset(|body| way.diagonal(body));
+        for (index, point) in problem.points.iter().enumerate() {
+            let mut weight = [[0.0; D]; D];
+            for edge in &problem.edges[point.own()] {
+                (0..D).for_each(|i| (0..D).for_each(|k| weight[i][k] += edge[i] * edge[k]));
+            }
+            matrix.add(index, point, &weight);
+        }
+        if matrix.factor().is_none() {
+            return false;
+        }
+        self.a.copy_from_slice(&problem.load);
+        matrix.solve(&mut self.a);
+        problem.motion(&self.a, &mut way.moved);
+        let (mut inside, mut outside) = (0.0_f64, 0.0_f64);
+        for point in &problem.points {
+            let moved = &way.moved[point.own()];
+            let [least, most] = if point.round {
+                let across = moved[1].hypot(moved[2]);
+                [moved[0] - across, moved[0] + across]
+            } else {
+                [moved.iter().copied().fold(f64::INFINITY, f64::min), moved.iter().copied().fold(0.0, f64::max)]
+            };
+            (inside, outside) = (inside.max(-least), outside.max(most));
+        }
+        // s as the contacts open and f as they close, each with its own share of the cones' axes.
+        for point in &problem.points {
+            for (k, j) in point.own().enumerate() {
+                let axis = if point.round && k > 0 { 0.0 } else { 1.0 };
+                self.s[j] = way.moved[j] + (1.0 + 1.1 * inside) * axis;
+                self.f[j] = (1.0 + 1.1 * outside) * axis - way.moved[j];
+            }
+        }
+        true
+    }
+
     /// One step of predictor and corrector. False if there is none.
     fn iterate(&mut self, matrix: &mut BodyMatrix<B>, way: &mut Step<B>, residuals: &Residuals<B>) -> bool {
         let problem = &self.problem;
-        let [least, most] = PROXIMAL_BOUNDS;
+        let [least, most] = if self.has_layers() { PROXIMAL_WITH_LAYERS } else { PROXIMAL_BOUNDS };
         let delta = (PROXIMAL * residuals.gap).clamp(least, most);
         let scaling = Scaling::at(problem, &self.f, &self.s, delta);
-        let diagonal = if self.mass > 0.0 { self.mass } else { PROXIMAL_MASS };
-        matrix.reset(diagonal);
+        matrix.reset(|body| way.diagonal(body));
         let mut index = 0;
         scaling.weights(problem, |point, weight| {
             matrix.add(index, point, &weight);
             index += 1;
         });
         let Some(more) = matrix.factor() else { return false };
-        way.diagonal = diagonal + more;
+        way.more = more;
         way.correction.fill(0.0);
         way.newton(problem, matrix, &scaling, residuals, &self.s, 0);
         let length = step(problem, &self.f, &way.df).min(step(problem, &self.s, &way.ds));
@@ -177,7 +242,7 @@ impl<const B: usize, const D: usize> Interior<B, D> {
         way.newton(problem, matrix, &scaling, residuals, &self.s, REFINEMENTS);
         let mut lengths =
             [step(problem, &self.f, &way.df), step(problem, &self.s, &way.ds)].map(|length| SHARE * length);
-        if self.mass > 0.0 {
+        if self.massless < self.a.len() {
             lengths = [lengths[0].min(lengths[1]); 2]; // masses couple forces and accelerations
         }
         if !(way.da.iter().flatten().chain(&way.df).chain(&lengths).all(|d| d.is_finite())) {
@@ -196,8 +261,11 @@ impl<const B: usize, const D: usize> Interior<B, D> {
     }
 
     fn residuals(&self) -> Residuals<B> {
-        let less = |(a, load): (&[f64; B], &[f64; B])| std::array::from_fn(|k| self.mass * a[k] - load[k]);
-        let mut balance: Vec<[f64; B]> = self.a.iter().zip(&self.problem.load).map(less).collect();
+        let less = |(body, (a, load)): (usize, (&[f64; B], &[f64; B]))| {
+            let mass = if body < self.massless { 0.0 } else { 1.0 };
+            std::array::from_fn(|k| mass * a[k] - load[k])
+        };
+        let mut balance: Vec<[f64; B]> = self.a.iter().zip(&self.problem.load).enumerate().map(less).collect();
         self.problem.add_wrenches(&self.f, -1.0, &mut balance);
         let mut motion = vec![0.0; self.s.len()];
         self.problem.motion(&self.a, &mut motion);
@@ -237,13 +305,18 @@ impl<const B: usize> Step<B> {
         let (rows, columns) = (|| vec![[0.0; B]; bodies], || vec![0.0; forces]);
         let (da, left) = (rows(), rows());
         let (df, ds, moved, correction, other) = (columns(), columns(), columns(), columns(), columns());
-        Self { da, df, ds, moved, correction, left, other, diagonal: 0.0 }
+        Self { da, df, ds, moved, correction, left, other, massless: 0, proximal_mass: 0.0, more: 0.0 }
+    }
+
+    /// Weight of a body's motion itself in the matrix: its mass, or a proximal term in its place.
+    fn diagonal(&self, body: usize) -> f64 {
+        if body < self.massless { self.proximal_mass } else { 1.0 }
     }
 
     /// The Newton step of (2) for the product that `self.correction` asks for.
-    fn newton<const D: usize>(
+    fn newton<const D: usize, const N: usize>(
         &mut self,
-        problem: &Scaled<B, D>,
+        problem: &Scaled<B, D, N>,
         matrix: &mut BodyMatrix<B>,
         scaling: &Scaling,
         residuals: &Residuals<B>,
@@ -262,8 +335,10 @@ impl<const B: usize> Step<B> {
         self.give_way(problem, scaling, false);
         let scale = self.df.iter().fold(1.0_f64, |largest, df| largest.max(df.abs()));
         for _ in 0..refinements {
-            for ((left, balance), da) in self.left.iter_mut().zip(&residuals.balance).zip(&self.da) {
-                *left = std::array::from_fn(|k| -balance[k] - self.diagonal * da[k]);
+            for body in 0..self.left.len() {
+                let (balance, da) = (&residuals.balance[body], &self.da[body]);
+                let weight = self.diagonal(body) + self.more;
+                self.left[body] = std::array::from_fn(|k| -balance[k] - weight * da[k]);
             }
             problem.add_wrenches(&self.df, 1.0, &mut self.left);
             if largest(&self.left) <= REFINED * scale {
@@ -282,7 +357,12 @@ impl<const B: usize> Step<B> {
 
     /// Takes from the forces what a motion changes in them: all of it, or what a refinement adds. In that order no digits of
     /// the forces are lost where `(W^2 + delta)^-1` is large.
-    fn give_way<const D: usize>(&mut self, problem: &Scaled<B, D>, scaling: &Scaling, refined: bool) {
+    fn give_way<const D: usize, const N: usize>(
+        &mut self,
+        problem: &Scaled<B, D, N>,
+        scaling: &Scaling,
+        refined: bool,
+    ) {
         if !refined {
             self.other.copy_from_slice(&self.moved);
         }

@@ -25,6 +25,7 @@
 //! *When.* From nothing, or where friction must carry much: some ten to twenty iterations whatever the size. Where one block
 //! comes or goes, [`cone`](crate::cone) is hundreds of times faster. What was measured: docs/theory/interior-point.md.
 
+mod layers;
 mod matrix;
 mod method;
 mod problem;
@@ -32,6 +33,7 @@ mod scaled;
 mod scaling;
 mod solving;
 
+pub use layers::Layers;
 pub use method::{End, Found};
 pub use problem::{Cone, Gauss, Point};
 pub use solving::worth_of_pivots;

@@ -49,4 +49,12 @@ impl Cone {
             Self::Round { .. } => 3,
         }
     }
+
+    /// The force along the three directions that some unknowns are.
+    pub fn force(&self, unknowns: &[f64]) -> [f64; 3] {
+        match self {
+            Self::Round { .. } => [unknowns[0], unknowns[1], unknowns[2]],
+            Self::Edges(edges) => [0, 1, 2].map(|k| edges.iter().zip(unknowns).map(|(edge, f)| edge[k] * f).sum()),
+        }
+    }
 }

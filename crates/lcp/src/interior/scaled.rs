@@ -1,13 +1,16 @@
 //! The problem in its own units: `M` becomes one, the largest load one, and a row of J has at most length one.
 
-use super::problem::{Cone, Gauss};
+use super::{
+    layers::Layers,
+    problem::{Cone, Gauss},
+};
 
 /// A [`Gauss`] problem with `a~ = M^1/2 a / unit`, `f~` and `s~` in units of their rows; bodies of B unknowns, contacts of D
-/// directions.
-pub(super) struct Scaled<const B: usize, const D: usize> {
+/// directions between N of them. Layers are bodies behind the others.
+pub(super) struct Scaled<const B: usize, const D: usize, const N: usize> {
     /// `M^-1/2 F / unit`.
     pub load: Vec<[f64; B]>,
-    pub points: Vec<ScaledPoint<B, D>>,
+    pub points: Vec<ScaledPoint<B, D, N>>,
     /// Whether a cone is round.
     pub any_round: bool,
     /// What each unknown force is along the directions of its point: an edge, whose row of `J` has length one, or a component
@@ -23,9 +26,9 @@ pub(super) struct Scaled<const B: usize, const D: usize> {
 }
 
 /// A point, its rows multiplied by `M^-1/2`.
-pub(super) struct ScaledPoint<const B: usize, const D: usize> {
-    bodies: [u32; 2],
-    pub jacobian: [[[f64; B]; D]; 2],
+pub(super) struct ScaledPoint<const B: usize, const D: usize, const N: usize> {
+    bodies: [u32; N],
+    pub jacobian: [[[f64; B]; D]; N],
     /// Its forces, first and behind the last.
     first: u32,
     end: u32,
@@ -35,7 +38,7 @@ pub(super) struct ScaledPoint<const B: usize, const D: usize> {
 
 const NONE: u32 = u32::MAX;
 
-impl<const B: usize, const D: usize> ScaledPoint<B, D> {
+impl<const B: usize, const D: usize, const N: usize> ScaledPoint<B, D, N> {
     /// Its forces.
     pub fn own(&self) -> std::ops::Range<usize> {
         self.first as usize..self.end as usize
@@ -47,27 +50,61 @@ impl<const B: usize, const D: usize> ScaledPoint<B, D> {
     }
 }
 
-impl<const B: usize, const D: usize> Scaled<B, D> {
+impl<const B: usize, const D: usize> Scaled<B, D, 2> {
     pub fn new(problem: &Gauss) -> Self {
-        let root = problem.inverse_mass.chunks_exact(B).map(|body| std::array::from_fn(|k: usize| body[k].sqrt()));
-        let root: Vec<[f64; B]> = root.collect();
+        Self::with(problem, roots(&problem.inverse_mass), |index, side| {
+            let point = &problem.points[index];
+            point.bodies[side].map(|body| (body, &point.jacobian[side]))
+        })
+    }
+}
+
+impl<const B: usize, const D: usize> Scaled<B, D, 3> {
+    /// With the layer of each point as its third body.
+    pub fn with_layers(problem: &Gauss, layers: &Layers) -> Self {
+        let (mut root, compliance) = (roots::<B>(&problem.inverse_mass), layers.compliance(problem));
+        root.extend(roots::<B>(&compliance));
+        let bodies = problem.load.len() / B;
+        Self::with(problem, root, |index, side| {
+            let point = &problem.points[index];
+            match side {
+                2 => Some((bodies + layers.of[index], &layers.jacobian[index])),
+                _ => point.bodies[side].map(|body| (body, &point.jacobian[side])),
+            }
+        })
+    }
+}
+
+/// `M^-1/2`.
+fn roots<const B: usize>(inverse: &[f64]) -> Vec<[f64; B]> {
+    inverse.chunks_exact(B).map(|body| std::array::from_fn(|k: usize| body[k].sqrt())).collect()
+}
+
+impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
+    /// `side` tells which bodies that move a point is between, and their rows; bodies beyond those of the problem have no load.
+    fn with<'a>(
+        problem: &'a Gauss,
+        root: Vec<[f64; B]>,
+        side: impl Fn(usize, usize) -> Option<(usize, &'a [[f64; 6]; 3])>,
+    ) -> Self {
         let of = |(load, root): (&[f64], &[f64; B])| std::array::from_fn(|k| load[k] * root[k]);
         let mut load: Vec<[f64; B]> = problem.load.chunks_exact(B).zip(&root).map(of).collect();
+        load.resize(root.len(), [0.0; B]);
         let unit = largest(&load);
         let unit = if unit > 0.0 { unit } else { 1.0 };
         load.iter_mut().flatten().for_each(|load| *load /= unit);
         let (mut edges, mut lengths) = (Vec::new(), Vec::new());
         let mut points = Vec::with_capacity(problem.points.len());
-        for point in &problem.points {
-            let side = |side: usize| -> [[f64; B]; D] {
-                let Some(body) = point.bodies[side] else { return [[0.0; B]; D] };
-                std::array::from_fn(|row| std::array::from_fn(|k| point.jacobian[side][row][k] * root[body][k]))
-            };
-            let jacobian = [side(0), side(1)];
+        for (index, point) in problem.points.iter().enumerate() {
+            let sides: [_; N] = std::array::from_fn(|k| side(index, k));
+            let jacobian = sides.map(|side| {
+                let Some((body, rows)) = side else { return [[0.0; B]; D] };
+                std::array::from_fn(|row| std::array::from_fn(|k| rows[row][k] * root[body][k]))
+            });
             let first = edges.len();
             span(&point.cone, &jacobian, &mut edges, &mut lengths);
             points.push(ScaledPoint {
-                bodies: point.bodies.map(|body| body.map_or(NONE, |body| body as u32)),
+                bodies: sides.map(|side| side.map_or(NONE, |(body, _)| body as u32)),
                 jacobian,
                 first: first as u32,
                 end: edges.len() as u32,
@@ -93,7 +130,7 @@ impl<const B: usize, const D: usize> Scaled<B, D> {
     pub fn motion(&self, a: &[[f64; B]], s: &mut [f64]) {
         for point in &self.points {
             let mut u = [0.0; D];
-            for side in [0, 1] {
+            for side in 0..N {
                 let Some(body) = point.body(side) else { continue };
                 for (u, row) in u.iter_mut().zip(&point.jacobian[side]) {
                     *u += dot(row, &a[body]);
@@ -112,7 +149,7 @@ impl<const B: usize, const D: usize> Scaled<B, D> {
             for (edge, f) in self.edges[point.own()].iter().zip(&f[point.own()]) {
                 (0..D).for_each(|k| force[k] += edge[k] * f * factor);
             }
-            for side in [0, 1] {
+            for side in 0..N {
                 let Some(body) = point.body(side) else { continue };
                 for (force, row) in force.iter().zip(&point.jacobian[side]) {
                     out[body].iter_mut().zip(row).for_each(|(out, row)| *out += row * force);
@@ -146,9 +183,9 @@ pub(super) fn largest<const N: usize>(x: &[[f64; N]]) -> f64 {
 }
 
 /// The rows of a cone, so that the longest has length one.
-fn span<const B: usize, const D: usize>(
+fn span<const B: usize, const D: usize, const N: usize>(
     cone: &Cone,
-    jacobian: &[[[f64; B]; D]; 2],
+    jacobian: &[[[f64; B]; D]; N],
     edges: &mut Vec<[f64; D]>,
     lengths: &mut Vec<f64>,
 ) {

@@ -30,7 +30,12 @@ fn determinant(x: &[f64]) -> f64 {
 }
 
 impl Scaling {
-    pub fn at<const B: usize, const D: usize>(problem: &Scaled<B, D>, f: &[f64], s: &[f64], delta: f64) -> Self {
+    pub fn at<const B: usize, const D: usize, const N: usize>(
+        problem: &Scaled<B, D, N>,
+        f: &[f64],
+        s: &[f64],
+        delta: f64,
+    ) -> Self {
         let mut squares: Vec<f64> = f.iter().zip(s).map(|(f, s)| s / f).collect();
         let mut rounds = Vec::new();
         for point in problem.points.iter().filter(|point| point.round) {
@@ -41,7 +46,7 @@ impl Scaling {
     }
 
     /// `(W^2 + delta)^-1 x`, in place.
-    pub fn divide<const B: usize, const D: usize>(&self, problem: &Scaled<B, D>, x: &mut [f64]) {
+    pub fn divide<const B: usize, const D: usize, const N: usize>(&self, problem: &Scaled<B, D, N>, x: &mut [f64]) {
         if !problem.any_round {
             x.iter_mut().zip(&self.squares).for_each(|(x, square)| *x /= square + self.delta);
             return;
@@ -58,10 +63,10 @@ impl Scaling {
     }
 
     /// Tells for each point its `(W^2 + delta)^-1` as a matrix on the directions.
-    pub fn weights<const B: usize, const D: usize>(
+    pub fn weights<const B: usize, const D: usize, const N: usize>(
         &self,
-        problem: &Scaled<B, D>,
-        mut tell: impl FnMut(&ScaledPoint<B, D>, [[f64; D]; D]),
+        problem: &Scaled<B, D, N>,
+        mut tell: impl FnMut(&ScaledPoint<B, D, N>, [[f64; D]; D]),
     ) {
         let mut rounds = self.rounds.iter();
         for point in &problem.points {
@@ -85,9 +90,9 @@ impl Scaling {
     }
 
     /// What is asked of `W^2 df + ds + s`: the centre `mu e` for the product, corrected for the second order of the step (df, ds).
-    pub fn centre<const B: usize, const D: usize>(
+    pub fn centre<const B: usize, const D: usize, const N: usize>(
         &self,
-        problem: &Scaled<B, D>,
+        problem: &Scaled<B, D, N>,
         f: &[f64],
         mu: f64,
         [df, ds]: [&[f64]; 2],
@@ -164,7 +169,11 @@ impl Round {
 }
 
 /// The largest step, at most one, that keeps `x + step d` in the cones.
-pub(super) fn step<const B: usize, const D: usize>(problem: &Scaled<B, D>, x: &[f64], d: &[f64]) -> f64 {
+pub(super) fn step<const B: usize, const D: usize, const N: usize>(
+    problem: &Scaled<B, D, N>,
+    x: &[f64],
+    d: &[f64],
+) -> f64 {
     if problem.any_round {
         let mut longest = 1.0_f64;
         for point in &problem.points {

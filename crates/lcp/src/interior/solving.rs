@@ -1,6 +1,7 @@
 //! What is asked of a problem: how bodies begin to move, and a basis of the forces that hold them.
 
 use super::{
+    layers::Layers,
     method::{Found, Interior},
     problem::{Cone, Gauss},
     scaled::Scaled,
@@ -43,6 +44,22 @@ impl Gauss {
         (found.gap <= TOLD_APART).then(bearing)
     }
 
+    /// The forces of least norm that balance the loads: of all f in the cones with `J' f = -F` those whose layers bear the least
+    /// `sum W' Q W`. Masses do not matter, but that they set the scale. The accelerations are those of the bodies and then the
+    /// layers' `Q W`, all to an unknown factor.
+    ///
+    /// # Panics
+    /// If bodies have neither 3 nor 6 unknowns.
+    pub fn least_norm(&self, layers: &Layers) -> Found {
+        let bodies = self.load.len() / self.size;
+        let found = match self.size {
+            3 => Interior::of_least_norm(Scaled::<3, 2, 3>::with_layers(self, layers), bodies).solve(&mut || true),
+            6 => Interior::of_least_norm(Scaled::<6, 3, 3>::with_layers(self, layers), bodies).solve(&mut || true),
+            size => panic!("a body has 3 or 6 unknowns, not {size}"),
+        };
+        found.expect("nobody stops it")
+    }
+
     /// Solves it, or looks for the forces of least cost from some that hold the bodies.
     fn by_size(&self, dear: Option<(&[f64], Vec<f64>)>, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         match self.size {
@@ -57,7 +74,7 @@ impl Gauss {
         dear: Option<(&[f64], Vec<f64>)>,
         go_on: &mut dyn FnMut() -> bool,
     ) -> Option<Found> {
-        let scaled = Scaled::<B, D>::new(self);
+        let scaled = Scaled::<B, D, 2>::new(self);
         match dear {
             None => Interior::new(scaled),
             Some((forces, cost)) => Interior::of_least_cost(scaled, forces, cost),

@@ -3,7 +3,7 @@
 use drystone_lcp::{
     Dantzig, Method, Problem, Settings, Status,
     cone::{Columns, ConeSolver, Membership},
-    interior::{Cone, End, Gauss, Point},
+    interior::{Cone, End, Gauss, Layers, Point},
 };
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
@@ -168,4 +168,132 @@ fn nothing_to_touch_falls_freely_and_no_body_is_no_trouble() {
     let free = Gauss { size: 3, inverse_mass: vec![1.0; 3], load: vec![0.0, -9.81, 0.0], ..Gauss::default() };
     assert!(free.solve().accelerations.iter().zip(&free.load).all(|(a, load)| (a - load).abs() < 1e-12));
     assert!(Gauss { size: 6, ..Gauss::default() }.solve().accelerations.is_empty());
+}
+
+/// A layer for each pair of bodies, between which all points of the pair are.
+fn layers(problem: &Gauss, seed: u64) -> Layers {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut pairs: Vec<[Option<usize>; 2]> = problem.points.iter().map(|point| point.bodies).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    let of = |point: &Point| pairs.binary_search(&point.bodies).expect("a pair");
+    let mut row = || std::array::from_fn(|k| if k < problem.size { random.random_range(-1.0..1.0) } else { 0.0 });
+    Layers {
+        of: problem.points.iter().map(of).collect(),
+        jacobian: problem.points.iter().map(|_| [row(), row(), row()]).collect(),
+        stiffness: (0..pairs.len() * problem.size).map(|k| 0.5 + (k as f64 * 0.37).fract()).collect(),
+    }
+}
+
+/// What forces do: to the bodies, body after body, and to the layers.
+fn wrenches(problem: &Gauss, layers: &Layers, forces: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let size = problem.size;
+    let (mut bodies, mut between) = (vec![0.0; problem.load.len()], vec![0.0; layers.stiffness.len()]);
+    let mut next = 0;
+    for (index, point) in problem.points.iter().enumerate() {
+        let own = next..next + point.cone.unknowns();
+        next = own.end;
+        let force = point.cone.force(&forces[own]);
+        for (row, f) in (0..3).zip(force) {
+            for k in 0..size {
+                between[layers.of[index] * size + k] += layers.jacobian[index][row][k] * f;
+                for (body, rows) in point.bodies.iter().zip(&point.jacobian) {
+                    body.iter().for_each(|body| bodies[body * size + k] += rows[row][k] * f);
+                }
+            }
+        }
+    }
+    (bodies, between)
+}
+
+/// Random bodies that some forces within the cones hold: the loads are theirs.
+fn held(seed: u64, size: usize, friction: Option<f64>) -> (Gauss, Layers) {
+    let mut problem = random(seed, size, 6, 30, friction);
+    let layers = layers(&problem, seed);
+    let some: Vec<f64> = problem
+        .points
+        .iter()
+        .enumerate()
+        .flat_map(|(k, point)| match point.cone {
+            // Of every third point nothing, of every third as much aside as there may be.
+            Cone::Round { friction } => [[0.0; 3], [1.0, friction, 0.0], [1.0, 0.1, 0.1]][k % 3].to_vec(),
+            Cone::Edges(_) => [[0.0, 0.0], [1.0, 0.0], [1.0, 0.5]][k % 3].to_vec(),
+        })
+        .collect();
+    problem.load = wrenches(&problem, &layers, &some).0.iter().map(|load| -load).collect();
+    (problem, layers)
+}
+
+/// (4) has no better forces: with the multipliers y and `u = Q W` no cone has a force along which the norm falls, and what bears
+/// is square to its motion.
+#[test]
+fn forces_of_least_norm_obey_the_conditions_of_optimality() {
+    for seed in 0..24 {
+        let (size, friction) = [(3, None), (6, None), (6, Some(0.5))][seed as usize % 3];
+        let (problem, layers) = held(seed, size, friction);
+        let found = problem.least_norm(&layers);
+        let (bodies, between) = wrenches(&problem, &layers, &found.forces);
+        for (wrench, load) in bodies.iter().zip(&problem.load) {
+            assert!((wrench + load).abs() < 1e-9, "seed {seed}: {wrench} {load}");
+        }
+        let (y, u) = found.accelerations.split_at(problem.load.len());
+        // The unit of the motions is not known: that of the layers tells.
+        let work: f64 = between.iter().zip(&layers.stiffness).map(|(w, stiffness)| w * w / stiffness).sum();
+        let unit = between.iter().zip(u).map(|(w, u)| w * u).sum::<f64>() / work;
+        for ((w, u), stiffness) in between.iter().zip(u).zip(&layers.stiffness) {
+            assert!((w / stiffness * unit - u).abs() < 1e-8 * unit, "seed {seed}");
+        }
+        let (mut next, scale) = (0, unit * (1.0 + y.iter().fold(0.0_f64, |most, y| most.max((y / unit).abs()))));
+        for (index, point) in problem.points.iter().enumerate() {
+            let own = &found.forces[next..next + point.cone.unknowns()];
+            next += own.len();
+            let motion: [f64; 3] = std::array::from_fn(|row| {
+                let along = |rows: &[[f64; 6]; 3], motion: &[f64]| -> f64 {
+                    rows[row].iter().zip(motion).map(|(x, v)| x * v).sum()
+                };
+                let of_bodies = point.bodies.iter().zip(&point.jacobian);
+                let moved =
+                    of_bodies.map(|(body, rows)| body.map_or(0.0, |body| along(rows, &y[body * size..][..size])));
+                moved.sum::<f64>() + along(&layers.jacobian[index], &u[layers.of[index] * size..][..size])
+            });
+            let power: f64 = point.cone.force(own).iter().zip(&motion).map(|(f, v)| f * v).sum();
+            assert!(power.abs() < 1e-9 * scale, "seed {seed}: {power:e} of {scale:e}");
+            let least = match &point.cone {
+                Cone::Edges(edges) => {
+                    let rate = |edge: &[f64; 3]| edge.iter().zip(&motion).map(|(d, v)| d * v).sum::<f64>();
+                    edges.iter().map(rate).fold(f64::INFINITY, f64::min)
+                }
+                Cone::Round { friction } => motion[0] - friction * motion[1].hypot(motion[2]),
+            };
+            assert!(least > -1e-8 * scale, "seed {seed}: closes by {least:e} of {scale:e}");
+        }
+    }
+}
+
+#[test]
+fn what_layers_bear_does_not_change_with_points_that_add_no_wrench() {
+    for seed in 0..8 {
+        let (problem, layers) = held(seed, 3, None);
+        let (mut more, mut thicker) = (problem.clone(), layers.clone());
+        // Half way between two points of one pair: its forces are halves of theirs.
+        for k in 0..problem.points.len() {
+            let Some(other) = (0..k).find(|&other| layers.of[other] == layers.of[k]) else { continue };
+            let half = |a: f64, b: f64| 0.5 * (a + b);
+            let rows = |a: &[[f64; 6]; 3], b: &[[f64; 6]; 3]| -> [[f64; 6]; 3] {
+                std::array::from_fn(|row| std::array::from_fn(|c| half(a[row][c], b[row][c])))
+            };
+            let (a, b) = (&problem.points[k], &problem.points[other]);
+            let jacobian = [0, 1].map(|side| rows(&a.jacobian[side], &b.jacobian[side]));
+            more.points.push(Point { jacobian, ..a.clone() });
+            thicker.of.push(layers.of[k]);
+            thicker.jacobian.push(rows(&layers.jacobian[k], &layers.jacobian[other]));
+        }
+        assert!(more.points.len() > problem.points.len());
+        let before = wrenches(&problem, &layers, &problem.least_norm(&layers).forces).1;
+        let after = wrenches(&more, &thicker, &more.least_norm(&thicker).forces).1;
+        let largest = before.iter().fold(0.0_f64, |largest, w| largest.max(w.abs()));
+        for (before, after) in before.iter().zip(&after) {
+            assert!((before - after).abs() < 1e-9 * largest, "seed {seed}: {before} {after}");
+        }
+    }
 }
