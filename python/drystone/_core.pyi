@@ -15,6 +15,7 @@ __all__ = [
     "ContactForces",
     "ContactSolution",
     "DrystoneError",
+    "Forces",
     "Generators",
     "LcpError",
     "LcpSnapshot",
@@ -252,10 +253,21 @@ class ContactForces:
         """DrystoneError if the bytes are none."""
 
 @final
+class Forces:
+    """The contact forces of a verdict, computed when asked for."""
+
+    def canonical(self) -> ContactForces: ...
+    def any(self) -> ContactForces:
+        """Those that the verdict was found with."""
+    def at_borders(self) -> bool:
+        """Whether some of the contacts are where only borders meet."""
+    def __len__(self) -> int: ...
+
+@final
 class Verdict:
     status: str
     stable: bool
-    forces: ContactForces
+    forces: Forces
     names: list[str]
     accelerations: NDArray[np.float64]
     falling: list[str]

@@ -49,8 +49,19 @@ class ContactForce:
         )
 
 
+CANONICAL, ANY = "canonical", "any"
+"""Which contact forces: those of least norm, or those that a verdict was found with."""
+
+
+def which_forces(forces: str) -> str:
+    """ValueError unless it is "canonical" or "any"."""
+    if forces not in (CANONICAL, ANY):
+        raise ValueError(f'unknown forces {forces!r}: give "{CANONICAL}" or "{ANY}"')
+    return forces
+
+
 class ContactForces(Sequence[ContactForce]):
-    """The forces at all contact points of an answer.
+    """The forces at all contact points of an answer; computed when first asked for.
 
     A sequence of `ContactForce`, each made when it is asked for, and the same numbers as read-only
     arrays, one row a contact point:
@@ -61,10 +72,22 @@ class ContactForces(Sequence[ContactForce]):
     (4, '1', [9.81, 9.81, 4.905, 4.905])
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_found", "_kind", "_source")
 
-    def __init__(self, core: _core.ContactForces) -> None:
-        self._core = core
+    def __init__(
+        self, source: _core.Forces | None, kind: str, found: _core.ContactForces | None = None
+    ) -> None:
+        self._source, self._kind, self._found = source, kind, found
+
+    @property
+    def _core(self) -> _core.ContactForces:
+        found, source = self._found, self._source
+        if found is None:
+            assert source is not None
+            found = source.any() if self._kind == ANY else source.canonical()
+            self._found = found
+            self._source = None  # which holds the assembly
+        return found
 
     @property
     def bodies(self) -> NDArray[np.int64]:
@@ -99,10 +122,12 @@ class ContactForces(Sequence[ContactForce]):
     @property
     def at_borders(self) -> tuple[ContactForce, ...]:
         """Those that bear where only borders meet."""
+        if self._source is not None and not self._source.at_borders():
+            return ()
         return tuple(self[k] for k in self._core.borders())
 
     def __len__(self) -> int:
-        return len(self._core)
+        return len(self._core if self._source is None else self._source)
 
     @overload
     def __getitem__(self, index: int) -> ContactForce: ...
@@ -141,7 +166,7 @@ class ContactForces(Sequence[ContactForce]):
     @classmethod
     def _again(cls, state: bytes) -> ContactForces:
         """What was pickled; DrystoneError if the bytes are none."""
-        return cls(_core.ContactForces.from_bytes(state))
+        return cls(None, CANONICAL, _core.ContactForces.from_bytes(state))
 
     def json_lines(self, together: int = 4096) -> Iterator[str]:
         """JSON objects with the fields of `ContactForce`, one a line, some `together`."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
+from drystone.contact_force import CANONICAL, which_forces
 from drystone.scene import Scene
 from drystone.verdict import Verdict
 
@@ -83,9 +84,10 @@ class Structure:
         """
         return self._core.step([], [])[0]
 
-    def check(self) -> Verdict:
+    def check(self, *, forces: str = CANONICAL) -> Verdict:
         """The verdict with all contact forces, or how it begins to fall; as `check` gives it."""
-        return Verdict._of(self._core.check(), copy.copy(self._scene), self._cones[1])
+        kind = which_forces(forces)
+        return Verdict._of(self._core.check(), copy.copy(self._scene), self._cones[1], kind)
 
     @property
     def pivots(self) -> int:

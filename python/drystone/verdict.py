@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 from drystone import _core, tables
 from drystone.bearing import Explanation, NearMiss, Unsupported
 from drystone.cones import CONES, FACETS, ROUND, core_cones
-from drystone.contact_force import ContactForce, ContactForces
+from drystone.contact_force import CANONICAL, ContactForce, ContactForces, which_forces
 from drystone.json_text import Rows, write_json
 from drystone.scene import Scene
 from drystone.text import shown
@@ -38,7 +38,14 @@ class Verdict:
     contact in which the loads do work by more than ten times what rounding could make of the
     forces. Residuals are refined to 32 digits before both, or neither, are said to hold."""
     forces: ContactForces
-    """One entry a contact point of the bodies checked."""
+    """One entry a contact point of the bodies checked; computed when first read.
+
+    Where faces meet, many forces hold a structure. These are the unique ones of least norm: of all
+    that do within the friction cones those that elastic layers between the faces would bear
+    (docs/theory/canonical-forces.md). They are as symmetric as the structure and its loads, and
+    the same for every method and order. Of what falls they are the ones of least norm under which
+    it has its `accelerations`. With `forces="any"` in `check` they are those that the verdict was
+    found with."""
     names: tuple[str, ...]
     """The movable bodies checked, in the order of the rows of `accelerations`."""
     accelerations: NDArray[np.float64]
@@ -76,11 +83,13 @@ class Verdict:
     ones. False where the pyramids' edges may have decided: see `cone` of `check`."""
 
     @classmethod
-    def _of(cls, core: _core.Verdict, scene: Scene, cone: str = CONES[0]) -> Verdict:
+    def _of(
+        cls, core: _core.Verdict, scene: Scene, cone: str = CONES[0], forces: str = CANONICAL
+    ) -> Verdict:
         return cls(
             core.stable,
             core.status,
-            ContactForces(core.forces),
+            ContactForces(core.forces, forces),
             tuple(core.names),
             core.accelerations,
             tuple(core.falling),
@@ -221,6 +230,7 @@ def check(
     *,
     facets: int = FACETS,
     cone: str = ROUND,
+    forces: str = CANONICAL,
 ) -> Verdict:
     """Compute the contact forces and accelerations of `scene` at rest.
 
@@ -231,7 +241,8 @@ def check(
     the supports, as long as these are easy to find, else by the interior-point method, which gives
     the accelerations of what falls as well. "interior" takes the interior-point method in any case.
     "lcp" solves the complementarity problem by Dantzig's method, as the paper does. The verdict is
-    the same; where a structure is redundant the forces may differ.
+    the same, and so are the forces unless `forces` is "any": then they are those that the method
+    has found, of the many that hold a redundant structure; see `Verdict.forces`.
 
     In space `cone` "round" takes Coulomb's cones as they are. The others are pyramids of `facets`
     edges: "inscribed" ones lie within the round cones, so that a structure is never said to stand
@@ -253,7 +264,7 @@ def check(
     round_cone = cone == ROUND and method != "lcp"
     inner = CONES[0] if cone in ("both", ROUND) else cone
     core = _core.check(scene._core, names, method, (facets, inner), round_cone)
-    verdict = Verdict._of(core, scene, ROUND if round_cone else inner)
+    verdict = Verdict._of(core, scene, ROUND if round_cone else inner, which_forces(forces))
     if cone == "both" and verdict.status == "solved" and not verdict.certain:
         outer = _core.check(scene._core, names, method, (facets, CONES[1]))
         if outer.status == "solved" and not outer.stable:

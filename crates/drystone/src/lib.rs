@@ -18,6 +18,7 @@
 
 mod any_scene;
 pub mod bounds;
+pub mod canonical;
 pub mod check;
 mod checked;
 pub mod contact;

@@ -22,6 +22,7 @@ use drystone_lcp::{
 use fall::Fall;
 use history::History;
 use putting_up::PuttingUp;
+use std::sync::Arc;
 
 /// A change is worth so many times more pivots than a verdict from nothing, about as long as the interior-point method itself
 /// takes: what is kept is lost with it.
@@ -51,7 +52,7 @@ const OF_A_CHANGE: usize = 8;
 /// ```
 #[derive(Debug, Clone)]
 pub struct Structure {
-    assembly: Assembly,
+    assembly: Arc<Assembly>,
     blocks: BlockSet,
     solver: ConeSolver,
     rows: BlockRows,
@@ -77,7 +78,8 @@ impl Structure {
     }
 
     /// The same of an assembly whose contacts are known.
-    pub fn of(assembly: Assembly) -> Self {
+    pub fn of(assembly: impl Into<Arc<Assembly>>) -> Self {
+        let assembly = assembly.into();
         let mut height = vec![0; assembly.blocks()];
         assembly.upward().into_iter().enumerate().for_each(|(place, block)| height[block] = place);
         let (blocks, solver) = (BlockSet::empty(assembly.blocks()), assembly.equilibrium());
@@ -98,6 +100,11 @@ impl Structure {
     /// The complete assembly.
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
+    }
+
+    /// The same, for what outlives the structure.
+    pub fn shared_assembly(&self) -> Arc<Assembly> {
+        Arc::clone(&self.assembly)
     }
 
     /// The movable blocks that are there.

@@ -1,16 +1,17 @@
 //! The contact forces of a verdict: numbers side by side. Objects, arrays and text are made when they are asked for.
 
-use crate::{arrays::vector, coordinates::Coordinates, errors::no_forces};
+use crate::{arrays::vector, coordinates::Coordinates, errors::no_forces, watch::interruptible};
 use drystone::{
-    Contact, Feature,
-    formulate::{Assembly, ContactForce as Force},
+    Feature,
+    canonical::canonical_forces,
+    formulate::{Assembly, ContactForce as Force, FrictionCone},
     geometry::Numbers,
     simulate::ContactImpulse,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::{exceptions::PyIndexError, prelude::*, types::PyBytes};
 use serde::{Deserialize, Serialize};
-use std::fmt::Write;
+use std::{fmt::Write, sync::Arc};
 
 /// The force that body `a` exerts on body `b` at one contact point, in newtons.
 #[pyclass(frozen, get_all, module = "drystone._core")]
@@ -68,21 +69,59 @@ struct Row {
     tangential_force: f64,
 }
 
+/// The same, when they are asked for: what they are computed from.
+#[pyclass(frozen, module = "drystone._core")]
+pub struct Forces {
+    assembly: Arc<Assembly>,
+    cone: FrictionCone,
+    verdict: drystone::Verdict,
+}
+
+impl Forces {
+    /// Of a verdict with these friction cones.
+    pub fn new(assembly: Arc<Assembly>, cone: FrictionCone, verdict: drystone::Verdict) -> Self {
+        Self { assembly, cone, verdict }
+    }
+}
+
+#[pymethods]
+impl Forces {
+    fn canonical(&self, py: Python<'_>) -> PyResult<ContactForces> {
+        let forces = interruptible(py, || canonical_forces(&self.assembly, self.cone, &self.verdict))?;
+        Ok(ContactForces::new(&self.assembly, forces.iter()))
+    }
+
+    fn any(&self) -> ContactForces {
+        ContactForces::new(&self.assembly, self.verdict.forces.iter().map(|(_, force)| force))
+    }
+
+    fn at_borders(&self) -> bool {
+        self.verdict.forces.iter().any(|(contact, _)| contact.id.feature.at_borders())
+    }
+
+    fn __len__(&self) -> usize {
+        self.verdict.forces.len()
+    }
+}
+
 impl ContactForces {
-    pub fn new(assembly: &Assembly, forces: &[(Contact, Force)]) -> Self {
-        let row = |(contact, force): &(Contact, Force)| Row {
-            bodies: contact.bodies.map(|body| body as u32),
-            feature: contact.id.feature,
-            point: contact.point,
-            normal: contact.normal,
-            force: force.force,
-            normal_force: force.normal,
-            tangential_force: force.tangential,
+    fn new<'a>(assembly: &Assembly, forces: impl Iterator<Item = &'a Force>) -> Self {
+        let row = |force: &Force| {
+            let contact = &assembly.contacts()[force.contact];
+            Row {
+                bodies: contact.bodies.map(|body| body as u32),
+                feature: contact.id.feature,
+                point: contact.point,
+                normal: contact.normal,
+                force: force.force,
+                normal_force: force.normal,
+                tangential_force: force.tangential,
+            }
         };
         Self {
             names: assembly.bodies().iter().map(|body| body.name.clone()).collect(),
             in_plane: assembly.in_plane(),
-            rows: forces.iter().map(row).collect(),
+            rows: forces.map(row).collect(),
         }
     }
 

@@ -31,6 +31,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<scene::Contact>()?;
     module.add_class::<contact_forces::ContactForce>()?;
     module.add_class::<contact_forces::ContactForces>()?;
+    module.add_class::<contact_forces::Forces>()?;
     module.add_class::<verdict::Verdict>()?;
     module.add_class::<plan::TestRecord>()?;
     module.add_class::<plan::Plan>()?;

@@ -9,7 +9,7 @@ use crate::{
 };
 use drystone::{
     AnyScene,
-    formulate::{Assemble, Assembly, BlockSet},
+    formulate::{Assemble, Assembly, BlockSet, FrictionCone},
     plan::{self as core, ClearPath, Conditions, Limits, PlanError, StabilityTest, Test, TestOutcome},
     scene::SceneOf,
 };
@@ -18,7 +18,10 @@ use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyValueError},
     prelude::*,
 };
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct TestRecord {
@@ -146,7 +149,7 @@ pub fn plan(
             Some(error) => Err(error),
             None => {
                 let stopped = core::Plan::stopped(core::Outcome::TimeLimit, start.elapsed());
-                to_python(py, None, &stopped, Duration::ZERO)
+                to_python(py, None, stopped, Duration::ZERO)
             }
         };
     };
@@ -163,7 +166,7 @@ pub fn plan(
     let planned = planned.ok_or_else(|| signals.error())?;
     match watch.error(py) {
         Some(error) => Err(error),
-        None => to_python(py, Some(&assembly), &planned.map_err(plan_error)?, contacts),
+        None => to_python(py, Some(assembly), planned.map_err(plan_error)?, contacts),
     }
 }
 
@@ -204,16 +207,20 @@ fn clean(&[x, y, z]: &[f64; 3]) -> Way {
 }
 
 /// Without an assembly for a plan that names nothing.
-fn to_python(py: Python<'_>, assembly: Option<&Assembly>, plan: &core::Plan, contacts: Duration) -> PyResult<Plan> {
-    let name = |index: usize| assembly.map_or_else(String::new, |assembly| assembly.bodies()[index].name.clone());
+fn to_python(py: Python<'_>, assembly: Option<Assembly>, mut plan: core::Plan, contacts: Duration) -> PyResult<Plan> {
+    let assembly = assembly.map(Arc::new);
+    let name =
+        |index: usize| assembly.as_ref().map_or_else(String::new, |assembly| assembly.bodies()[index].name.clone());
     let names = |bodies: &[usize]| -> Vec<String> { bodies.iter().map(|&index| name(index)).collect() };
     let way = |(direction, bodies): &([f64; 3], Vec<usize>)| (clean(direction), names(bodies));
     let record = |record: &core::TestRecord| {
         let (TestOutcome { stands, pivots, .. }, seconds) = (record.outcome, record.time.as_secs_f64());
         Py::new(py, TestRecord { size: record.size, pivots, seconds, stable: stands })
     };
-    let verdict = |(assembly, whole)| Py::new(py, Verdict::new(py, assembly, whole, plan.whole_time)?);
-    let whole = assembly.zip(plan.whole.as_ref()).map(verdict);
+    let verdict = |(assembly, whole): (&Arc<Assembly>, _)| {
+        Py::new(py, Verdict::new(py, Arc::clone(assembly), FrictionCone::Pyramid, whole, plan.whole_time)?)
+    };
+    let whole = assembly.as_ref().zip(plan.whole.take()).map(verdict);
     Ok(Plan {
         status: plan.outcome.name().to_owned(),
         found: plan.outcome == core::Outcome::Found,

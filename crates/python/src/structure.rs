@@ -7,7 +7,7 @@ use crate::{
     verdict::Verdict,
     watch::{briefly, interruptible},
 };
-use drystone::Structure as Core;
+use drystone::{Structure as Core, formulate::FrictionCone};
 use pyo3::{prelude::*, types::PyBytes};
 use std::time::Instant;
 
@@ -77,7 +77,7 @@ impl Structure {
         let core = &mut *guard;
         let start = Instant::now();
         let verdict = interruptible(py, || core.check())?;
-        Verdict::new(py, core.assembly(), &verdict, start.elapsed())
+        Verdict::new(py, core.shared_assembly(), FrictionCone::Pyramid, verdict, start.elapsed())
     }
 
     fn pivots(&self) -> PyResult<usize> {

@@ -1,19 +1,22 @@
 //! `check` and its answer.
 
-use crate::{arrays::matrix, contact_forces::ContactForces, errors::scene_error, scene::Scene, watch::interruptible};
+use crate::{arrays::matrix, contact_forces::Forces, errors::scene_error, scene::Scene, watch::interruptible};
 use drystone::{
     check::{Route, check_while},
     formulate::{Assembly, FrictionCone},
 };
 use numpy::PyArray2;
 use pyo3::{exceptions::PyValueError, prelude::*};
-use std::time::{Duration, Instant};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct Verdict {
     status: String,
     stable: bool,
-    forces: Py<ContactForces>,
+    forces: Py<Forces>,
     names: Vec<String>,
     accelerations: Py<PyArray2<f64>>,
     falling: Vec<String>,
@@ -30,13 +33,19 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    pub fn new(py: Python<'_>, assembly: &Assembly, verdict: &drystone::Verdict, time: Duration) -> PyResult<Self> {
+    /// Of a check with these friction cones.
+    pub fn new(
+        py: Python<'_>,
+        assembly: Arc<Assembly>,
+        cone: FrictionCone,
+        verdict: drystone::Verdict,
+        time: Duration,
+    ) -> PyResult<Self> {
         let name = |&index: &usize| assembly.bodies()[index].name.clone();
         let accelerations = verdict.accelerations.iter();
         Ok(Self {
             status: verdict.status.name().to_owned(),
             stable: verdict.stable,
-            forces: Py::new(py, ContactForces::new(assembly, &verdict.forces))?,
             names: verdict.checked.iter().map(name).collect(),
             accelerations: if assembly.in_plane() {
                 matrix(py, &accelerations.map(|a| a.in_plane()).collect::<Vec<_>>())?.unbind()
@@ -52,6 +61,7 @@ impl Verdict {
             virtual_motion: verdict.virtual_motion,
             doubt: verdict.doubt.map(|doubt| (doubt.imbalance, doubt.power)),
             seconds: time.as_secs_f64(),
+            forces: Py::new(py, Forces::new(Arc::clone(&assembly), cone, verdict))?,
         })
     }
 }
@@ -77,8 +87,10 @@ pub fn check(
     };
     let cone = if round_cones { FrictionCone::Round } else { FrictionCone::Pyramid };
     let start = Instant::now();
-    let assembly = scene.assembly(py, cones)?;
+    let assembly = Arc::new(scene.assembly(py, cones)?);
     let checked = interruptible(py, || check_while(&assembly, blocks.as_deref(), route, cone, &mut |_| true))?;
     let verdict = checked.map_err(|error| scene_error(&error))?.expect("nobody says stop");
-    Verdict::new(py, &assembly, &verdict, start.elapsed())
+    // The complementarity problem knows pyramids only.
+    let cone = if route == Route::Complementarity { FrictionCone::Pyramid } else { cone };
+    Verdict::new(py, assembly, cone, verdict, start.elapsed())
 }

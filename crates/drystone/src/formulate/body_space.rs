@@ -6,7 +6,7 @@ use crate::{
     formulate::cones::tangents,
     geometry::{cross, dot},
 };
-use drystone_lcp::interior::{Cone, Found, Gauss, Point};
+use drystone_lcp::interior::{Cone, Found, Gauss, Layers, Point};
 use std::ops::Range;
 
 /// Which friction cones a question is about.
@@ -53,16 +53,28 @@ pub(crate) struct Constrained {
 impl Assembly {
     /// Gauss's principle for a sub-assembly.
     pub(crate) fn body_space(&self, blocks: &BlockSet, cone: FrictionCone) -> BodySpace<'_> {
-        self.spanned_body_space(blocks, cone, false)
+        self.spanned_body_space(blocks, None, cone, false)
+    }
+
+    /// The same where some of the blocks are held, which is to be fixed for the others.
+    pub(crate) fn held_body_space(&self, blocks: &BlockSet, held: &BlockSet, cone: FrictionCone) -> BodySpace<'_> {
+        self.spanned_body_space(blocks, Some(held), cone, false)
     }
 
     /// The same with the axis of each cone beside its edges, as [`Self::equilibrium`] has it.
     pub(crate) fn body_space_with_axes(&self, blocks: &BlockSet) -> BodySpace<'_> {
-        self.spanned_body_space(blocks, FrictionCone::Pyramid, true)
+        self.spanned_body_space(blocks, None, FrictionCone::Pyramid, true)
     }
 
-    fn spanned_body_space(&self, blocks: &BlockSet, cone: FrictionCone, axes: bool) -> BodySpace<'_> {
-        let present: Vec<usize> = blocks.iter().collect();
+    fn spanned_body_space(
+        &self,
+        blocks: &BlockSet,
+        held: Option<&BlockSet>,
+        cone: FrictionCone,
+        axes: bool,
+    ) -> BodySpace<'_> {
+        let is_held = |block: usize| held.is_some_and(|held| held.contains(block));
+        let present: Vec<usize> = blocks.iter().filter(|&block| !is_held(block)).collect();
         let mut place = vec![None; self.blocks()];
         present.iter().enumerate().for_each(|(k, &block)| place[block] = Some(k));
         let mut problem = Gauss { size: self.components().len(), ..Gauss::default() };
@@ -75,8 +87,8 @@ impl Assembly {
         for (index, contact) in self.contacts().iter().enumerate() {
             let own = self.generators_of(index, first);
             first = own.end;
-            let blocks = contact.bodies.map(|body| self.block_of(body));
-            let there = blocks.map(|block| block.map(|block| place[block]));
+            let moves = |body: usize| self.block_of(body).filter(|&block| !(blocks.contains(block) && is_held(block)));
+            let there = contact.bodies.map(|body| moves(body).map(|block| place[block]));
             if there.contains(&Some(None)) {
                 continue; // one of the two is not there
             }
@@ -145,15 +157,65 @@ impl BodySpace<'_> {
         for (Touched { contact, frame, .. }, point) in self.points.iter().zip(&self.problem.points) {
             let own = &unknowns[next..next + point.cone.unknowns()];
             next += own.len();
-            let local = match &point.cone {
-                Cone::Round { .. } => [own[0], own[1], own[2]],
-                Cone::Edges(edges) => [0, 1, 2].map(|k| edges.iter().zip(own).map(|(edge, f)| edge[k] * f).sum()),
-            };
-            let force = [0, 1, 2].map(|k| (0..3).map(|axis| local[axis] * frame[axis][k]).sum());
-            let normal = self.assembly.contacts()[*contact].normal;
-            forces.push(force_at(*contact, normal, self.assembly.in_plane(), force));
+            let local = point.cone.force(own);
+            forces.push(self.force_along(*contact, frame, local));
         }
         forces
+    }
+
+    /// A contact's force from its components along a frame.
+    fn force_along(&self, contact: usize, frame: &[[f64; 3]; 3], local: [f64; 3]) -> ContactForce {
+        let force = [0, 1, 2].map(|k| (0..3).map(|axis| local[axis] * frame[axis][k]).sum());
+        force_at(contact, self.assembly.contacts()[contact].normal, self.assembly.in_plane(), force)
+    }
+
+    /// The contact of each point.
+    pub fn contacts(&self) -> impl Iterator<Item = &Contact> {
+        self.points.iter().map(|point| &self.assembly.contacts()[point.contact])
+    }
+
+    /// The directions of a point's rows.
+    pub fn directions(&self, point: usize) -> &[[f64; 3]; 3] {
+        &self.points[point].frame
+    }
+
+    /// The forces that a point can bear, along its directions.
+    pub fn cone(&self, point: usize) -> &Cone {
+        &self.problem.points[point].cone
+    }
+
+    /// The force at a point from its components along its directions.
+    pub fn force(&self, point: usize, local: [f64; 3]) -> ContactForce {
+        self.force_along(self.points[point].contact, &self.points[point].frame, local)
+    }
+
+    /// Takes for the loads what some contact forces balance, in place of the weights.
+    pub fn balance(&mut self, forces: &[ContactForce]) {
+        let mut load = vec![[0.0; 6]; self.assembly.blocks()];
+        for force in forces {
+            let contact = &self.assembly.contacts()[force.contact];
+            for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let body = contact.bodies[side];
+                let Some(block) = self.assembly.block_of(body) else { continue };
+                let wrench = self.assembly.bodies()[body].wrench(force.force.map(|f| sign * f), contact.point);
+                (0..6).for_each(|k| load[block][k] += wrench[k]);
+            }
+        }
+        let components = self.assembly.components();
+        let own = |block: &usize| components.iter().map(|&c| load[*block][c]).collect::<Vec<_>>();
+        self.problem.load = self.blocks.iter().flat_map(own).collect();
+    }
+
+    /// The forces of least norm at every point, along its directions; the norm is that of what the layers bear.
+    pub fn least_norm(&self, layers: &Layers) -> Vec<[f64; 3]> {
+        let found = self.problem.least_norm(layers);
+        let mut rest = &found.forces[..];
+        let own = |point: &Point| {
+            let (own, others) = rest.split_at(point.cone.unknowns());
+            rest = others;
+            point.cone.force(own)
+        };
+        self.problem.points.iter().map(own).collect()
     }
 
     /// A basis of columns of [`Assembly::equilibrium`] that hold the blocks, where [`Self::solve`] has found forces that do. None
