@@ -215,3 +215,14 @@ def test_no_thread_is_an_error(block: ds.Scene) -> None:
 def test_an_unknown_test_is_an_error(block: ds.Scene) -> None:
     with pytest.raises(ValueError, match="unknown test 'simplex': choose one of reuse"):
         ds.plan(block, "simplex")
+
+
+def test_a_wall_in_space_is_planned_without_a_test_by_pivots_for_each_brick() -> None:
+    """Beyond a bound of work, blocks that bear by straight pressure need no pivots."""
+    plan = ds.plan(ds.scenes.brick_wall(24, 30))
+    assert plan.found
+    assert plan.tests == len(plan.order) - 1
+    without = [record for record in plan.records if record.pivots == 0]
+    assert len(without) > 100
+    assert all(record.stable for record in without)
+    assert plan.order == tuple(reversed(plan.reached))

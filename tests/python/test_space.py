@@ -253,3 +253,17 @@ def test_everything_falls_freely_where_nothing_is_fixed() -> None:
         assert np.allclose(verdict.accelerations[:, :3], scene.gravity, rtol=0, atol=error)
         assert np.abs(verdict.accelerations[:, 3:]).max() <= error
         assert max(force.normal_force for force in verdict.forces) <= 1e-9
+
+
+def test_a_large_wall_is_told_by_straight_pressure() -> None:
+    """Pivots within their bound, then the load takedown: no matrix is factored."""
+    scene = ds.scenes.brick_wall(24, 30)
+    verdict = ds.check(scene)
+    assert verdict.stable
+    assert verdict.iterations == 0
+    assert verdict.forces.normal_forces.min() >= 0.0
+    assert verdict.residual < 1e-12
+    ground = np.array([scene.names[a] == "ground" for a, _ in verdict.forces.bodies])
+    weight = sum(body.mass for body in scene.bodies if not body.fixed) * 9.81
+    assert verdict.forces.vectors[ground].sum(axis=0) == pytest.approx([0, 0, weight], abs=1e-6)
+    assert ds.check(scene, method="interior").stable

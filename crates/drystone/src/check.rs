@@ -1,6 +1,7 @@
 //! Does it stand, with which contact forces, and if not, what falls?
 
 mod interior;
+mod takedown;
 
 use crate::{
     contact::Contact,
@@ -123,7 +124,10 @@ pub fn check_blocks_while(
     match found {
         // What stands within pyramids stands within the round cones around them.
         Membership::Inside => Some(held(assembly, blocks, &equilibrium, spent)),
-        Membership::PivotLimit => interior::check(assembly, blocks, cone, spent, go_on),
+        Membership::PivotLimit => match takedown::check(assembly, blocks, spent) {
+            Some(stands) => Some(stands),
+            None => interior::check(assembly, blocks, cone, spent, go_on),
+        },
         _ if assembly.is_round(cone) => interior::check(assembly, blocks, cone, spent, go_on),
         _ => by_equilibrium(assembly, blocks, found, &equilibrium, spent, go_on),
     }

@@ -50,6 +50,10 @@ pub(crate) fn effort_of_interior_point(assembly: &Assembly, blocks: usize) -> us
     worth_of_pivots(assembly.components().len(), blocks)
 }
 
+/// A change is worth so many times more pivots than a verdict from nothing, about as long as the interior-point method itself
+/// takes: what is kept is lost with it.
+pub(crate) const OF_A_CHANGE: usize = 8;
+
 /// [`equilibrium_while`] to the end.
 pub(crate) fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
     equilibrium_while(assembly, blocks, Effort::Any, &mut |_| true).expect("nobody stops it")

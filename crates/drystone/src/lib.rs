@@ -39,6 +39,7 @@ pub mod scenes;
 pub mod simulate;
 pub mod structure;
 mod suggest;
+mod takedown;
 pub mod unsupported;
 
 pub use any_scene::AnyScene;

@@ -9,7 +9,7 @@ mod state;
 use crate::{
     check::{self, Verdict},
     crossover::from_interior,
-    equilibrium::effort_of_interior_point,
+    equilibrium::{OF_A_CHANGE, effort_of_interior_point},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet},
     interrupt::or_else,
@@ -23,10 +23,6 @@ use fall::Fall;
 use history::History;
 use putting_up::PuttingUp;
 use std::sync::Arc;
-
-/// A change is worth so many times more pivots than a verdict from nothing, about as long as the interior-point method itself
-/// takes: what is kept is lost with it.
-const OF_A_CHANGE: usize = 8;
 
 /// The blocks of a scene that are there at the moment; fixed bodies always are.
 ///

@@ -10,8 +10,9 @@ use super::lemma_tests::{AT_ONCE, Watched, growable, small};
 use super::memory::Memory;
 use super::onward::Onward;
 use super::outcome::{Limits, Outcome, Quiet, TestRecord};
+use super::reuse::Reuse;
 use super::search::{Clock, Search};
-use super::stability::{PlanError, Reuse, StabilityTest, TestOutcome};
+use super::stability::{PlanError, StabilityTest, TestOutcome};
 use super::touching::Touching;
 use crate::{
     Scene,

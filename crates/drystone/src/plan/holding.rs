@@ -11,7 +11,8 @@
 
 use super::collapse::Collapse;
 use super::hitting::next_hitting_set;
-use super::stability::{PlanError, StabilityTest, TestOutcome, by_accelerations, certified_collapse};
+use super::reuse::certified_collapse;
+use super::stability::{PlanError, StabilityTest, TestOutcome, by_accelerations};
 use crate::formulate::{Assembly, BlockRows, BlockSet};
 use drystone_lcp::cone::{ConeSolver, Mark};
 

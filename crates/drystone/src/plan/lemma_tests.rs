@@ -5,8 +5,8 @@ use super::learned::{Bounds, Learned};
 use super::memory::{Back, Memory, Place};
 use super::nogood::Nogood;
 use super::outcome::{Limits, Outcome, Quiet};
+use super::reuse::Reuse;
 use super::search::{Clock, Search};
-use super::stability::Reuse;
 use super::touching::Touching;
 use super::visited::Visited;
 use crate::{

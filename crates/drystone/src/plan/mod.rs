@@ -29,8 +29,11 @@ mod onward;
 mod outcome;
 mod planning;
 mod replay;
+mod reuse;
 mod search;
 mod stability;
+#[cfg(test)]
+mod takedown_tests;
 mod touching;
 mod visited;
 mod whole;
@@ -46,4 +49,5 @@ pub use outcome::{
 };
 pub use planning::{plan, plan_assembly, plan_assembly_under, plan_under, plan_with, plan_with_under};
 pub use replay::{Recorder, Replay, Step, replay};
-pub use stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test, TestOutcome};
+pub use reuse::Reuse;
+pub use stability::{FromScratch, PlanError, ReuseDantzig, StabilityTest, Test, TestOutcome};

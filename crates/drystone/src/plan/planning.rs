@@ -8,8 +8,9 @@ use super::grips::fewest_grips;
 use super::holding::Holding;
 use super::in_turn::{InTurn, first_turn, memory_for};
 use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, TestRecord};
+use super::reuse::Reuse;
 use super::search::{Clock, Search};
-use super::stability::{FromScratch, PlanError, Reuse, ReuseDantzig, StabilityTest, Test};
+use super::stability::{FromScratch, PlanError, ReuseDantzig, StabilityTest, Test};
 use super::touching::Touching;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
 use crate::{

@@ -4,13 +4,10 @@ use super::collapse::Collapse;
 use crate::{
     equilibrium::collapse_motion,
     error::SceneError,
-    formulate::{Assembly, BlockRows, BlockSet, Components},
+    formulate::{Assembly, BlockSet, Components},
     judgement::{Judgement, judge, moving_blocks},
 };
-use drystone_lcp::{
-    LcpError, Settings, Snapshot, Solver, Status,
-    cone::{ConeSolver, Mark, Membership},
-};
+use drystone_lcp::{LcpError, Settings, Snapshot, Solver, Status, cone::Membership};
 
 /// What one test said, and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -194,112 +191,6 @@ impl StabilityTest for FromScratch<'_> {
 
     fn collapse(&self) -> Option<Collapse> {
         self.collapse.clone()
-    }
-}
-
-/// Every test starts from the forces of the stable sub-assembly without the block just added (Theorem 1).
-///
-/// A sub-assembly that stands has no acceleration, so *any* contact forces that balance its loads solve its
-/// complementarity problem with w = 0: they are looked for on the generators themselves, whose basis is far sparser
-/// than `A = G' M^-1 G`. If there are none, the certificate is a virtual motion that opens no contact against
-/// its force and in which the weights do work: the way in which it falls.
-#[derive(Debug)]
-pub struct Reuse<'a> {
-    assembly: &'a Assembly,
-    solver: ConeSolver,
-    rows: BlockRows,
-    /// Applied wrenches, row by row.
-    loads: Vec<f64>,
-    blocks: usize,
-    /// States of the current sub-assembly and its ancestors, the current one last.
-    path: Vec<Mark>,
-    at_current: bool,
-    /// How the last one tested falls, where the solver had no answer and the accelerations had.
-    by_accelerations: Option<Tested>,
-}
-
-impl<'a> Reuse<'a> {
-    /// Takes the generators of the complete assembly; the current sub-assembly is empty.
-    pub fn new(assembly: &'a Assembly) -> Self {
-        let mut solver = assembly.equilibrium();
-        let blocks = assembly.blocks();
-        let loads = (0..blocks).flat_map(|block| assembly.applied(block)).copied().collect();
-        Self {
-            assembly,
-            rows: assembly.equilibrium_rows(),
-            loads,
-            blocks,
-            path: vec![solver.mark()],
-            solver,
-            at_current: true,
-            by_accelerations: None,
-        }
-    }
-
-    /// The solver, for its counts.
-    pub fn solver(&self) -> &ConeSolver {
-        &self.solver
-    }
-}
-
-/// The certificate y with `y' G <= 0`, `y' h > 0` and `h = -F`: the motion is -y. `loads` has the entries of F; what comes
-/// after them are the rows of hands.
-pub(crate) fn certified_collapse(solver: &ConeSolver, rows: &BlockRows, loads: &[f64]) -> Collapse {
-    let mut moving: Vec<(usize, f64)> = Vec::new();
-    for (row, y) in solver.certificate().into_iter().filter(|&(row, _)| row < loads.len()) {
-        let (block, work) = (rows.block(row), -y * loads[row]);
-        match moving.last_mut().filter(|last| last.0 == block) {
-            Some(last) => last.1 += work,
-            None => moving.push((block, work)),
-        }
-    }
-    Collapse::new(moving)
-}
-
-impl StabilityTest for Reuse<'_> {
-    fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
-        if !self.at_current
-            && let Some(current) = self.path.last_mut()
-        {
-            self.solver.roll_back(*current);
-            *current = self.solver.mark(); // what had to be computed is remembered next time
-        }
-        self.at_current = false;
-        let before = self.solver.counts().pivots;
-        self.solver.add_rows(self.rows.of(added));
-        // The last test before the structure is complete brings all forces up to date, and checks them.
-        let last = blocks.len() + 1 == self.blocks;
-        let found = if last { self.solver.solve() } else { self.solver.decide() };
-        let pivots = self.solver.counts().pivots - before;
-        if let Some(outcome) = TestOutcome::of(found, pivots) {
-            self.by_accelerations = None;
-            return Ok(outcome);
-        }
-        let tested = by_accelerations(self.assembly, blocks)?;
-        let outcome = TestOutcome { pivots: tested.outcome.pivots + pivots, ..tested.outcome };
-        self.by_accelerations = Some(tested);
-        Ok(outcome)
-    }
-
-    fn explains(&self) -> bool {
-        true
-    }
-
-    fn collapse(&self) -> Option<Collapse> {
-        match &self.by_accelerations {
-            Some(tested) => tested.collapse.clone(),
-            None => Some(certified_collapse(&self.solver, &self.rows, &self.loads)),
-        }
-    }
-
-    fn descend(&mut self) {
-        self.path.push(self.solver.mark());
-        self.at_current = true;
-    }
-
-    fn backtrack(&mut self) {
-        self.path.pop();
-        self.at_current = false;
     }
 }
 
