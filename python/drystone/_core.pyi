@@ -132,6 +132,22 @@ class Scene:
             Sequence[tuple[float, float, float]] | None,
         ],
     ) -> str: ...
+    def add_surface(
+        self,
+        vertices: NDArray[np.float64],
+        triangles: NDArray[np.uint32],
+        position: tuple[float, float, float],
+        orientation: tuple[float, float, float, float],
+        name: str | None,
+        density: float,
+        friction: float | None,
+        fixed: bool,
+        own: tuple[
+            float | None,
+            tuple[float, float, float] | None,
+            Sequence[tuple[float, float, float]] | None,
+        ],
+    ) -> str: ...
     def extruded(self, depth: float) -> Scene: ...
     def copy(self) -> Scene: ...
     def __len__(self) -> int: ...
@@ -142,6 +158,10 @@ class Scene:
     def corner_touches(self) -> list[tuple[str, str]]: ...
     def overlaps(self) -> list[tuple[str, str, float, float]]:
         """Pairs of bodies that overlap: (a, b, depth, contact tolerance), metres."""
+
+    def near_misses(self) -> list[tuple[str, str, float, float]]:
+        """Pairs that do not touch, but would with ten times the contact tolerance, as (a, b, gap,
+        that tolerance), metres."""
 
     def explain_fall(
         self, checked: list[str], falling: list[str]
@@ -199,6 +219,7 @@ class Solid:
     orientation: tuple[float, float, float, float]
     box_size: tuple[float, float, float] | None
     pieces: list[tuple[NDArray[np.float64], list[list[int]]]]
+    surface: tuple[NDArray[np.float64], NDArray[np.uint32]] | None
     vertices: NDArray[np.float64]
 
 @final

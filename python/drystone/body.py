@@ -60,6 +60,16 @@ class Piece:
     """Vertices of each face, counter-clockwise seen from outside."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Surface:
+    """The closed surface of a body in space."""
+
+    vertices: NDArray[np.float64]
+    """(k, 3), metres, in the body's frame, whose origin is the centre of mass."""
+    triangles: NDArray[np.uint32]
+    """(n, 3): vertices of each triangle, counter-clockwise seen from outside."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Solid:
     """A snapshot of one body of a scene in space."""
@@ -83,11 +93,13 @@ class Solid:
     box_size: tuple[float, float, float] | None
     """Sides of a box, metres."""
     pieces: tuple[Piece, ...]
-    """Its convex pieces, in the body's frame."""
+    """Its convex pieces, in the body's frame; none of a body that has a surface."""
     vertices: NDArray[np.float64]
-    """(n, 3), metres: every corner of every piece, in world coordinates."""
+    """(n, 3), metres: every corner of every piece, or of the surface, in world coordinates."""
     offset: tuple[float, float, float]
     """Where the centroid is in the body's frame, metres."""
+    surface: Surface | None = None
+    """The surface of a body that is not made of convex pieces."""
 
     def __repr__(self) -> str:
         return _line("Solid", self)
@@ -154,6 +166,7 @@ def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:
             tuple(Piece(v, tuple(tuple(face) for face in faces)) for v, faces in body.pieces),
             body.vertices,
             body.offset,
+            None if body.surface is None else Surface(*body.surface),
         )
     return Body(
         body.name,

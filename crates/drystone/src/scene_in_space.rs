@@ -63,6 +63,58 @@ impl SceneInSpace {
         self.push_solid(name, solid, frame, centroid, options)
     }
 
+    /// Adds one rigid block within a closed surface: vertices in a frame, metres, and triangles, counter-clockwise from outside.
+    /// It may be concave, curved and large, and is not cut into convex pieces. The body's own frame keeps the orientation and moves
+    /// its origin to the centre of mass. Returns the block's index.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn add_surface(
+        &mut self,
+        vertices: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        frame: PoseInSpace,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let (solid, center) = self.enclosed(vertices, triangles, &options)?;
+        self.add_enclosed(solid, center, frame, options)
+    }
+
+    /// What [`Self::add_surface`] would add, which takes long for a large surface, and where its origin is in the frame.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn enclosed(
+        &self,
+        vertices: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        options: &BodyOptions,
+    ) -> Result<(Solid, [f64; 3]), SceneError> {
+        let name = self.free_name(options)?;
+        within_reach(&name, vertices)?;
+        let bad = |fault: SolidFault| SceneError::BadSolid { body: name.clone(), fault };
+        match options.own.checked_center(&name)? {
+            Some(own) => Ok((Solid::surface_about(vertices, triangles, own).map_err(bad)?, own)),
+            None => Solid::from_surface(vertices, triangles).map_err(bad),
+        }
+    }
+
+    /// Adds what [`Self::enclosed`] made with the same options.
+    ///
+    /// # Errors
+    /// [`SceneError`].
+    pub fn add_enclosed(
+        &mut self,
+        solid: Solid,
+        center: [f64; 3],
+        frame: PoseInSpace,
+        options: BodyOptions,
+    ) -> Result<usize, SceneError> {
+        let name = self.free_name(&options)?;
+        let frame = checked(&name, "position", frame)?;
+        self.push_solid(name, solid, frame, center, options)
+    }
+
     /// Adds a solid with a centre of mass of its own; both are given in the frame.
     fn push_about(
         &mut self,

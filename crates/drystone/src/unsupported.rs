@@ -4,7 +4,7 @@ use crate::{
     contact::{Contact, pair_tolerance, pairs_within, tolerance_of},
     error::SceneError,
     formulate::Assemble,
-    geometry::{distance, dot, length},
+    geometry::{dot, length},
     interrupt::poll,
     scene::{Body, BodyOptions, SceneOf},
 };
@@ -21,7 +21,7 @@ pub struct Unsupported {
     pub nearest: Option<(usize, f64)>,
 }
 
-/// Two bodies that do not touch, but would with a contact tolerance ten times larger. One of them falls.
+/// Two bodies that do not touch, but would with a contact tolerance ten times larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearMiss {
     /// Indices of the two, the lower first.
@@ -70,6 +70,16 @@ pub fn explain<S: Assemble>(
     Ok(Explanation { unsupported, near_misses: looking.near_misses(falling) })
 }
 
+/// Every pair of bodies that do not touch, but would with a contact tolerance ten times larger, in the order of the pairs.
+///
+/// # Errors
+/// [`SceneError::Overlap`].
+pub fn near_misses<S: Assemble>(scene: &SceneOf<S>) -> Result<Vec<NearMiss>, SceneError> {
+    let contacts = S::contacts(scene)?.contacts;
+    let all: Vec<usize> = (0..scene.bodies().len()).collect();
+    Ok(Looking { scene, there: vec![true; all.len()], contacts: &contacts }.near_misses(&all))
+}
+
 struct Looking<'a, S: Assemble> {
     scene: &'a SceneOf<S>,
     /// Whether each body is there.
@@ -113,7 +123,7 @@ impl<S: Assemble> Looking<'_, S> {
                 break;
             }
             // What meets within tolerance and is no contact has corners or edges there, which bear nothing.
-            let apart = body_distance(own, &bodies[i]);
+            let apart = S::distance(own, &bodies[i]);
             let distance = if apart <= pair_tolerance(self.scene, own, &bodies[i]) { 0.0 } else { apart };
             if best.is_none_or(|(known, least)| (distance, i) < (least, known)) {
                 best = Some((i, distance));
@@ -157,11 +167,4 @@ fn box_distance<S: Assemble>(a: &Body<S>, b: &Body<S>) -> f64 {
     let ends = low.as_ref().iter().zip(high.as_ref()).zip(other_low.as_ref().iter().zip(other_high.as_ref()));
     let apart = ends.map(|((low, high), (other_low, other_high))| (other_low - high).max(low - other_high).max(0.0));
     apart.fold(0.0, |all: f64, along| all.hypot(along))
-}
-
-fn body_distance<S: Assemble>(a: &Body<S>, b: &Body<S>) -> f64 {
-    let (origin, unit) = (S::in_space(S::place(&a.pose)), a.shape.radius());
-    let (own, others) = (S::pieces(a), S::pieces(b));
-    let each = own.iter().flat_map(|a| others.iter().map(move |b| distance(a, b, origin, unit)));
-    each.fold(f64::INFINITY, f64::min)
 }

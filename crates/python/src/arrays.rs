@@ -17,7 +17,10 @@ pub fn vector<'py, T: Element>(py: Python<'py>, values: Vec<T>) -> Bound<'py, Py
 }
 
 /// Rows of equal length as a (rows, N) array, also when there are none.
-pub fn matrix<'py, const N: usize>(py: Python<'py>, rows: &[[f64; N]]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+pub fn matrix<'py, T: Element + Copy, const N: usize>(
+    py: Python<'py>,
+    rows: &[[T; N]],
+) -> PyResult<Bound<'py, PyArray2<T>>> {
     Ok(read_only(PyArray1::from_iter(py, rows.iter().flatten().copied()).reshape([rows.len(), N])?))
 }
 

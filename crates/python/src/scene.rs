@@ -13,9 +13,9 @@ use drystone::{
     formulate::{self, Assembly, Cones},
     geometry::{PoseInSpace, Shape},
     io, scenes,
-    unsupported::explain,
+    unsupported::{explain, near_misses},
 };
-use numpy::PyArray2;
+use numpy::{Element, PyArray2, PyReadonlyArray2};
 use pyo3::{
     exceptions::{PyTypeError, PyValueError},
     prelude::*,
@@ -51,6 +51,9 @@ pub struct Body {
 /// Corners of a convex piece, and the faces as lists of them.
 type Piece = (Py<PyArray2<f64>>, Vec<Vec<usize>>);
 
+/// Vertices and triangles of a closed surface.
+type Surface = (Py<PyArray2<f64>>, Py<PyArray2<u32>>);
+
 /// A snapshot of one body in space; see the stub.
 #[pyclass(frozen, get_all, module = "drystone._core")]
 pub struct Solid {
@@ -66,6 +69,7 @@ pub struct Solid {
     orientation: (f64, f64, f64, f64),
     box_size: Option<(f64, f64, f64)>,
     pieces: Vec<Piece>,
+    surface: Option<Surface>,
     vertices: Py<PyArray2<f64>>,
 }
 
@@ -232,9 +236,24 @@ impl Solid {
             orientation: body.pose.orientation.into(),
             box_size: body.box_size.map(Into::into),
             pieces: body.shape.pieces().iter().map(piece).collect::<PyResult<_>>()?,
+            surface: body.shape.surface().map(|surface| surface_of(py, surface)).transpose()?,
             vertices: matrix(py, &body.corners())?.unbind(),
         })
     }
+}
+
+fn surface_of(py: Python<'_>, surface: &drystone::geometry::Surface) -> PyResult<Surface> {
+    let vertices: Vec<[f64; 3]> = surface.vertices().iter().map(|v| v.to_array()).collect();
+    Ok((matrix(py, &vertices)?.unbind(), matrix(py, surface.triangles())?.unbind()))
+}
+
+/// The rows of an array of three columns.
+fn triples<T: Element + Copy>(array: &PyReadonlyArray2<'_, T>) -> PyResult<Vec<[T; 3]>> {
+    let rows = array.as_array();
+    if rows.ncols() != 3 {
+        return Err(PyValueError::new_err("vertices and triangles have three numbers each"));
+    }
+    Ok(rows.rows().into_iter().map(|row| [row[0], row[1], row[2]]).collect())
 }
 
 /// The name of the body that was added.
@@ -356,6 +375,31 @@ impl Scene {
         self.add_in_space(|scene| scene.add_solid(&pieces, pose, options))
     }
 
+    /// Adds a body within a closed surface: `vertices` (k, 3), `triangles` (n, 3).
+    #[allow(clippy::too_many_arguments)]
+    fn add_surface(
+        &self,
+        py: Python<'_>,
+        vertices: PyReadonlyArray2<'_, f64>,
+        triangles: PyReadonlyArray2<'_, u32>,
+        position: [f64; 3],
+        orientation: [f64; 4],
+        name: Option<String>,
+        density: f64,
+        friction: Option<f64>,
+        fixed: bool,
+        own: OwnInSpace,
+    ) -> PyResult<String> {
+        let (options, pose) =
+            (options(name, density, friction, fixed, own_in_space(own)), PoseInSpace { position, orientation });
+        let (vertices, triangles) = (triples(&vertices)?, triples(&triangles)?);
+        // Made apart, so that other threads go on meanwhile.
+        let scene = self.now();
+        let AnyScene::Space(space) = &*scene else { return raised(Err(SceneError::NotInSpace)) };
+        let (solid, center) = raised(interruptible(py, || space.enclosed(&vertices, &triangles, &options))?)?;
+        self.add_in_space(|scene| scene.add_enclosed(solid, center, pose, options))
+    }
+
     /// The same scene in space, every block with this thickness.
     fn extruded(&self, py: Python<'_>, depth: f64) -> PyResult<Self> {
         let planar = self.planar()?;
@@ -426,6 +470,17 @@ impl Scene {
         })?;
         let name = |index: usize| scene.name(index).to_owned();
         Ok(found.into_iter().map(|o| (name(o.bodies[0]), name(o.bodies[1]), o.depth, o.tolerance)).collect())
+    }
+
+    /// Pairs that do not touch, but would with ten times the contact tolerance: (a, b, gap, that tolerance), metres.
+    fn near_misses(&self, py: Python<'_>) -> PyResult<Vec<(String, String, f64, f64)>> {
+        let scene = self.now();
+        let found = raised(interruptible(py, || match &*scene {
+            AnyScene::Plane(plane) => near_misses(plane),
+            AnyScene::Space(space) => near_misses(space),
+        })?)?;
+        let name = |index: usize| scene.name(index).to_owned();
+        Ok(found.into_iter().map(|m| (name(m.bodies[0]), name(m.bodies[1]), m.gap, m.tolerance)).collect())
     }
 
     /// Why blocks fall that bear on nothing: ([(name, touches, nearest, distance)], [(a, b, gap, contact tolerance)]).

@@ -2,7 +2,8 @@
 
 A solid becomes the visible faces of its pieces, projected and shaded, in an order in which nearer
 ones can be painted over farther ones. Two convex pieces that do not overlap have a plane between
-them, and the one on the eye's side of it is the nearer.
+them, and the one on the eye's side of it is the nearer. A surface is drawn in patches, of which
+most have such a plane between them too.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from drystone.body import Solid
+from drystone.pictures.patches import patches
 
 Points = NDArray[np.float64]
 
@@ -77,13 +79,15 @@ class Shadow:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A convex piece in the world."""
+    """A convex piece in the world, or a patch of a surface."""
 
     body: int
     corners: Points
     faces: Sequence[Sequence[int]]
     normals: Points
     """(faces, 3), outward, of length 1."""
+    sharp: NDArray[np.bool_] | None = None
+    """(faces, 3) of a patch: which sides of each triangle are edges of the body."""
 
     def visible(self, view: View) -> list[int]:
         """The faces that are turned to the eye."""
@@ -110,7 +114,8 @@ def rotation(orientation: Sequence[float]) -> Points:
 
 def placed(body: Solid, position: Sequence[float], orientation: Sequence[float]) -> Solid:
     """The body elsewhere."""
-    own = np.concatenate([piece.vertices for piece in body.pieces])
+    shapes = body.pieces if body.surface is None else [body.surface]
+    own = np.concatenate([shape.vertices for shape in shapes])
     x, y, z = position
     w, i, j, k = orientation
     return replace(
@@ -140,6 +145,12 @@ def pieces_of(bodies: Sequence[Solid], box: tuple[Points, Points]) -> list[Piece
     found = []
     for index, body in enumerate(bodies):
         turned = rotation(body.orientation)
+        if body.surface is not None:
+            corners = body.surface.vertices @ turned.T + np.asarray(body.center_of_mass)
+            if body.fixed:
+                corners = np.clip(corners, low, high)
+            found += [Piece(index, *patch) for patch in patches(corners, body.surface.triangles)]
+            continue
         for piece in body.pieces:
             corners = piece.vertices @ turned.T + np.asarray(body.center_of_mass)
             if body.fixed:
@@ -200,7 +211,9 @@ def _side(a: Piece, b: Piece, view: View) -> int:
     """1 if a face of `a` has `b` before it and towards the eye, -1 if away, 0 if there is none."""
     size = float(np.max(np.ptp(a.corners, axis=0)) + np.max(np.ptp(b.corners, axis=0)))
     gaps = np.min(b.corners @ a.normals.T, axis=0) - a.offsets()
-    apart = gaps >= -TOUCHING * size
+    # Of a convex piece all is behind each face, of a patch perhaps not.
+    behind = np.max(a.corners @ a.normals.T, axis=0) - a.offsets() <= TOUCHING * size
+    apart = (gaps >= -TOUCHING * size) & behind
     if not np.any(apart):
         return 0
     towards = a.normals @ view.axes[2]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.path import Path
+from numpy.typing import NDArray
 
 from drystone.body import Solid
 from drystone.pictures import style
@@ -91,6 +92,9 @@ def draw_solids(
 def _strokes(drawing: Drawing, piece: Piece, fill: str, line: str) -> Iterator[Stroke]:
     """The faces of a piece that are seen, and on a body of several pieces the edges it has."""
     view = drawing.view
+    if piece.sharp is not None:
+        yield from _patch_strokes(drawing, piece, piece.sharp, fill, line)
+        return
     others = [one for one in drawing.pieces if one.body == piece.body and one is not piece]
     for face in piece.visible(view):
         corners = piece.flat_face(face, view)
@@ -99,6 +103,21 @@ def _strokes(drawing: Drawing, piece: Piece, fill: str, line: str) -> Iterator[S
         yield outline, shade, shade if others else line
         for ends in edges_seen(piece, face, others) if others else ():
             yield Path(view.flat(ends)), "none", line
+
+
+def _patch_strokes(
+    drawing: Drawing, piece: Piece, sharp: NDArray[np.bool_], fill: str, line: str
+) -> Iterator[Stroke]:
+    """The triangles of a patch that are seen, from far to near, and the edges between them."""
+    view = drawing.view
+    middle = {k: piece.corners[list(piece.faces[k])].mean(axis=0) for k in piece.visible(view)}
+    depths = {k: float(at @ view.axes[2]) for k, at in middle.items()}
+    for face in sorted(depths, key=depths.__getitem__):
+        corners = piece.flat_face(face, view)
+        shade = view.shaded(fill, piece.normals[face])
+        yield Path(np.concatenate([corners, corners[:1]]), closed=True), shade, shade
+        for side in np.flatnonzero(sharp[face]).tolist():
+            yield Path(corners[[side, (side + 1) % 3]]), "none", line
 
 
 def draw_dashed(canvas: Canvas, outlines: Sequence[Points]) -> None:

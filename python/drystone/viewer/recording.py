@@ -185,6 +185,9 @@ def _body(body: Body | Solid) -> BodyJson:
 
 
 def _pieces(body: Solid) -> list[PieceJson]:
+    if body.surface is not None:
+        vertices, faces = body.surface.vertices.tolist(), body.surface.triangles.tolist()
+        return [{"vertices": vertices, "faces": faces}]
     return [
         {
             "vertices": piece.vertices.tolist(),

@@ -18,6 +18,7 @@ impl ContactId {
     pub fn pieces(&self) -> [usize; 2] {
         match self.feature {
             Feature::Solids { a, b } | Feature::Borders { a, b } => [a.piece, b.piece],
+            Feature::Surfaces { pieces, .. } => pieces,
             _ => [0, 0],
         }
     }
@@ -71,6 +72,15 @@ pub enum Feature {
         /// Of b.
         b: SolidFeature,
     },
+    /// What meets of a closed surface and another, or a convex piece.
+    Surfaces {
+        /// Of a and of b; 0 of a surface.
+        pieces: [usize; 2],
+        /// The triangles of a and of b. Those of a convex piece are numbered as its faces are fanned from their first corners.
+        triangles: [usize; 2],
+        /// Of several points on these two which one.
+        corner: usize,
+    },
 }
 
 impl Feature {
@@ -121,6 +131,13 @@ impl fmt::Display for Feature {
             Self::Solids { a, b } => write!(f, "a:{a} / b:{b}"),
             Self::Corners { a, b } => write!(f, "a:corner {a} / b:corner {b}"),
             Self::Borders { a, b } => write!(f, "a:{a} / b:{b} / borders"),
+            Self::Surfaces { pieces, triangles, corner } => {
+                let on = |k: usize| match pieces[k] {
+                    0 => format!("triangle {}", triangles[k]),
+                    piece => format!("triangle {} of piece {piece}", triangles[k]),
+                };
+                write!(f, "a:{} / b:{} / point {corner}", on(0), on(1))
+            }
         }
     }
 }

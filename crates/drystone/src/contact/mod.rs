@@ -23,12 +23,14 @@ mod rounding;
 mod separation;
 mod shared_face;
 mod solids;
+mod surfaces;
 mod touch;
 
 pub(crate) use broad_phase::pairs_within;
 pub use id::{ContactId, Feature, SolidFeature, SolidPart};
 pub(crate) use solids::overlapping_pieces;
 pub use solids::{find_solid_contacts, find_solid_overlaps};
+pub(crate) use surfaces::solid_distance;
 pub use touch::Overlap;
 
 use crate::error::SceneError;

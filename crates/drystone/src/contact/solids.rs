@@ -8,6 +8,7 @@ use super::{
     placed::{Placed, TouchPoint},
     separation::{Between, Separation, along_edges, along_faces, direction},
     shared_face::{SharedCorner, shared_corners},
+    surfaces::{self, Sheets},
     touch::{Border, Meetings, Overlap, Pressing, Touch},
 };
 use crate::{
@@ -15,6 +16,7 @@ use crate::{
     geometry::{Edge, Polyhedron, Solid, Vector3, convex_outline},
     scene::SceneOf,
 };
+use std::cell::OnceCell;
 
 /// Finds all contacts between the blocks of a scene in space; see [`super::find_contacts`].
 ///
@@ -32,9 +34,19 @@ pub fn find_solid_overlaps(scene: &SceneOf<Solid>) -> Vec<Overlap> {
 fn meetings(scene: &SceneOf<Solid>) -> Meetings {
     let bodies = scene.bodies();
     let placed: Vec<Placed> = bodies.iter().map(Placed::of).collect();
+    let sheets: Vec<OnceCell<Sheets>> = vec![OnceCell::new(); bodies.len()];
     Meetings::of(scene, &candidate_pairs(scene), |[a, b], tolerance| {
         let origin = Vector3::from_array(bodies[a].pose.position);
         let offset = Vector3::from_array(bodies[b].pose.position) - origin;
+        if [a, b].into_iter().any(|body| bodies[body].shape.surface().is_some()) {
+            let [of_a, of_b] = [a, b].map(|body| sheets[body].get_or_init(|| Sheets::of(&bodies[body])));
+            return surfaces::touch(of_a, of_b, offset, tolerance).map(|p| Pressing {
+                feature: p.feature,
+                point: (origin + p.point).to_array(),
+                normal: p.normal.to_array(),
+                gap: p.gap,
+            });
+        }
         let touch = touch_of_bodies(&placed[a], &placed[b], offset, tolerance);
         let at_borders = matches!(touch, Touch::AtBorders(_));
         let feature = |[a, b]: [SolidFeature; 2]| match at_borders {

@@ -1,9 +1,9 @@
 //! What mechanics needs of a body, whatever the dimension.
 
 use crate::{
-    contact::{ContactSet, find_contacts, find_solid_contacts},
+    contact::{ContactSet, find_contacts, find_solid_contacts, solid_distance},
     error::SceneError,
-    geometry::{Piece, Polygon, Shape, Solid, cross, dot, length, minus},
+    geometry::{Piece, Polygon, Shape, Solid, cross, distance, dot, length, minus},
     scene::{Body, Scene, SceneOf},
 };
 
@@ -59,8 +59,16 @@ pub trait Assemble: Shape {
         part
     }
 
-    /// A body's convex pieces in the world.
+    /// A body's convex pieces in the world; of a surface its triangles.
     fn pieces(body: &Body<Self>) -> Vec<Piece>;
+
+    /// Distance of two bodies that do not overlap, metres; zero where they meet.
+    fn distance(a: &Body<Self>, b: &Body<Self>) -> f64 {
+        let (origin, unit) = (Self::in_space(Self::place(&a.pose)), a.shape.radius());
+        let (own, others) = (Self::pieces(a), Self::pieces(b));
+        let each = own.iter().flat_map(|a| others.iter().map(move |b| distance(a, b, origin, unit)));
+        each.fold(f64::INFINITY, f64::min)
+    }
 
     /// A vector of the world, z being 0 in the plane.
     fn in_space(vector: Self::Vector) -> [f64; 3];
@@ -120,6 +128,10 @@ impl Assemble for Solid {
 
     fn pieces(body: &Body<Self>) -> Vec<Piece> {
         Piece::of_solid(&body.shape, &body.pose)
+    }
+
+    fn distance(a: &Body<Self>, b: &Body<Self>) -> f64 {
+        solid_distance(a, b)
     }
 
     fn in_space(vector: [f64; 3]) -> [f64; 3] {

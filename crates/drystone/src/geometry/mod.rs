@@ -1,5 +1,7 @@
 //! Shapes and where they stand. No physics beyond measure and moments, no names of blocks.
 
+mod closed;
+mod crossing;
 mod distance;
 mod hull;
 mod polygon;
@@ -9,9 +11,11 @@ mod pose_in_space;
 mod principal;
 mod shape;
 mod solid;
+mod surface;
 mod sweep;
 mod vectors;
 
+pub use closed::SurfaceEdge;
 pub(crate) use distance::distance;
 pub(crate) use hull::convex_outline;
 pub use parry2d_f64::math::Vector;
@@ -23,5 +27,6 @@ pub use pose_in_space::PoseInSpace;
 pub(crate) use principal::{OWN_AXES, principal};
 pub use shape::{Face, Numbers, Shape};
 pub use solid::Solid;
+pub use surface::Surface;
 pub use sweep::Piece;
 pub(crate) use vectors::{cross, dot, length, minus, minus_of, norm, plus_times, product, unit};

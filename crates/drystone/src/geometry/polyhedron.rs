@@ -34,6 +34,38 @@ pub enum SolidFault {
         /// Index of the vertex.
         vertex: usize,
     },
+    /// A surface without triangles.
+    #[error("the surface has no triangles: give a closed surface")]
+    NoTriangles,
+    /// A triangle uses a vertex twice, or one that is not there.
+    #[error(
+        "triangle {triangle} does not have three different vertices of those given: number them from 0, and leave out triangles without area"
+    )]
+    NotATriangle {
+        /// Index of the triangle.
+        triangle: usize,
+    },
+    /// A surface has a border, or triangles that face opposite ways.
+    #[error(
+        "the surface is not closed: its triangles do not go as often one way as the other along the edge between vertices {} and \
+         {}; close it, and let all triangles be counter-clockwise from outside", .ends[0], .ends[1]
+    )]
+    Open {
+        /// The ends of the first such edge, indices of vertices.
+        ends: [usize; 2],
+    },
+    /// A surface goes through itself.
+    #[error(
+        "the surface goes through itself at ({:.4}, {:.4}, {:.4}), and would weigh twice what it encloses twice: join its parts \
+         to one solid", .at[0], .at[1], .at[2]
+    )]
+    ThroughItself {
+        /// A place where it does, in the frame of the vertices, metres.
+        at: [f64; 3],
+    },
+    /// The triangles look inwards.
+    #[error("the surface is inside out: let its triangles be counter-clockwise from outside")]
+    InsideOut,
     /// All vertices lie in a plane.
     #[error("the polyhedron has zero volume: give corners that are not all in one plane")]
     ZeroVolume,

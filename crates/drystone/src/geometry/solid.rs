@@ -1,15 +1,22 @@
-//! Rigid shapes in space: convex pieces about their common centre of mass.
+//! Rigid shapes in space: convex pieces, or a closed surface, about their centre of mass.
 
 use super::{
-    Face, PoseInSpace, Shape, Vector3,
+    Face, PoseInSpace, Shape, Surface, Vector3,
+    closed::check_numbers,
+    crossing::crossing,
     polyhedron::{Polyhedron, SolidFault},
     principal,
+    surface::PLANE,
 };
+use crate::interrupt::poll;
+use std::sync::Arc;
 
-/// One rigid shape of convex pieces, in the frame of its centre of mass.
+/// One rigid shape of convex pieces, or within one closed surface of triangles, in the frame of its centre of mass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
+    /// None of a shape that has a surface.
     pieces: Vec<Polyhedron>,
+    surface: Option<Arc<Surface>>,
     centroid: Vector3,
     volume: f64,
     /// Principal second moments for a density of one, m^5.
@@ -56,22 +63,66 @@ impl Solid {
     }
 
     fn measured(pieces: Vec<Polyhedron>) -> Self {
-        let (volume, _, second) = integrals(&pieces);
-        let [xx, yy, zz, xy, xz, yz] = second;
-        let (moments, axes) = principal([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]]);
+        let Inertia { volume, moments, axes } = Inertia::of(triangles(&pieces));
         let width = least_width(&pieces);
         let radius = furthest(&pieces);
-        Self { pieces, centroid: Vector3::ZERO, volume, moments, axes, radius, width }
+        Self { pieces, surface: None, centroid: Vector3::ZERO, volume, moments, axes, radius, width }
     }
 
-    /// The convex pieces, about the centre of mass.
+    /// What a closed surface of triangles encloses, and its centroid; vertices in metres, triangles counter-clockwise from
+    /// outside. A hollow is a shell of its own whose triangles look into it.
+    ///
+    /// Vertices whose centroid is the origin (to rounding) are kept bit for bit.
+    ///
+    /// # Errors
+    /// [`SolidFault`].
+    pub fn from_surface(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(Self, [f64; 3]), SolidFault> {
+        let (near, centroid) = centred_vertices(vertices, triangles)?;
+        Ok((Self::within(surface_of(near, triangles)?), centroid.to_array()))
+    }
+
+    /// The same with its origin at a centre of mass, metres, which may be anywhere. About the origin the vertices are kept bit
+    /// for bit.
+    ///
+    /// # Errors
+    /// [`SolidFault`].
+    pub fn surface_about(
+        vertices: &[[f64; 3]],
+        triangles: &[[u32; 3]],
+        center_of_mass: [f64; 3],
+    ) -> Result<Self, SolidFault> {
+        let (near, _) = centred_vertices(vertices, triangles)?;
+        let measured = Self::within(surface_of(near, triangles)?);
+        let center = Vector3::from_array(center_of_mass);
+        let about: Vec<Vector3> = vertices.iter().map(|v| Vector3::from_array(*v) - center).collect();
+        let (_, centroid) = centred_vertices(&about.iter().map(|v| v.to_array()).collect::<Vec<_>>(), triangles)?;
+        let radius = furthest_of(&about);
+        let surface = Some(Arc::new(Surface::new(about, triangles.to_vec())?));
+        Ok(Self { surface, centroid, radius, ..measured })
+    }
+
+    fn within(surface: Surface) -> Self {
+        let Inertia { volume, moments, axes } = Inertia::of(triangles_of(&surface));
+        let width = least_width_of(&surface, axes);
+        let radius = furthest_of(surface.vertices());
+        let surface = Some(Arc::new(surface));
+        Self { pieces: Vec::new(), surface, centroid: Vector3::ZERO, volume, moments, axes, radius, width }
+    }
+
+    /// The surface of a shape that is not given by convex pieces.
+    pub fn surface(&self) -> Option<&Arc<Surface>> {
+        self.surface.as_ref()
+    }
+
+    /// The convex pieces, about the centre of mass; none of a shape that has a surface.
     pub fn pieces(&self) -> &[Polyhedron] {
         &self.pieces
     }
 
-    /// Every corner of every piece.
+    /// Every corner of every piece, or of the surface.
     pub fn vertices(&self) -> impl Iterator<Item = Vector3> + '_ {
-        self.pieces.iter().flat_map(Polyhedron::vertices).copied()
+        let of_surface = self.surface.iter().flat_map(|surface| surface.vertices());
+        self.pieces.iter().flat_map(Polyhedron::vertices).chain(of_surface).copied()
     }
 }
 
@@ -117,7 +168,8 @@ impl Shape for Solid {
     }
 
     fn faces(&self) -> Vec<Face<[f64; 3]>> {
-        self.pieces.iter().flat_map(Polyhedron::surface).collect()
+        let triangles = self.surface.iter().flat_map(|surface| surface.plane_parts());
+        self.pieces.iter().flat_map(Polyhedron::surface).chain(triangles).collect()
     }
 
     fn placed(pose: PoseInSpace, position: [f64; 3]) -> PoseInSpace {
@@ -148,7 +200,7 @@ fn centred(pieces: Vec<Polyhedron>) -> Result<(Vec<Polyhedron>, Vector3), SolidF
     // The shift is found about a corner, so that it is as exact far from the world's origin as near it.
     let corner = first.vertices()[0];
     let near: Vec<Polyhedron> = pieces.iter().map(|piece| piece.shifted(-corner)).collect();
-    let (volume, first_moment, _) = integrals(&near);
+    let (volume, first_moment, _) = integrals(triangles(&near));
     if volume <= 0.0 {
         return Err(SolidFault::ZeroVolume);
     }
@@ -168,10 +220,88 @@ fn furthest(pieces: &[Polyhedron]) -> f64 {
 /// Symmetric: xx, yy, zz, xy, xz, yz.
 type Symmetric = [f64; 6];
 
+/// Volume, and principal moments and axes for a density of one.
+struct Inertia {
+    volume: f64,
+    moments: [f64; 3],
+    axes: [Vector3; 3],
+}
+
+impl Inertia {
+    /// Of what triangles enclose, about the origin.
+    fn of(triangles: impl Iterator<Item = [Vector3; 3]>) -> Self {
+        let (volume, _, second) = integrals(triangles);
+        let [xx, yy, zz, xy, xz, yz] = second;
+        let (moments, axes) = principal([[yy + zz, -xy, -xz], [-xy, xx + zz, -yz], [-xz, -yz, xx + yy]]);
+        Self { volume, moments, axes }
+    }
+}
+
+fn triangles(pieces: &[Polyhedron]) -> impl Iterator<Item = [Vector3; 3]> + '_ {
+    pieces.iter().flat_map(Polyhedron::triangles)
+}
+
+fn triangles_of(surface: &Surface) -> impl Iterator<Item = [Vector3; 3]> + '_ {
+    (0..surface.triangles().len() as u32).map(|k| surface.corners(k))
+}
+
+fn surface_of(vertices: Vec<Vector3>, triangles: &[[u32; 3]]) -> Result<Surface, SolidFault> {
+    let surface = Surface::new(vertices, triangles.to_vec())?;
+    match crossing(&surface) {
+        Some(at) => Err(SolidFault::ThroughItself { at: at.to_array() }),
+        None => Ok(surface),
+    }
+}
+
+/// Vertices about the centroid of what their triangles enclose, and where that was. What is there to rounding is kept bit for bit.
+fn centred_vertices(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(Vec<Vector3>, Vector3), SolidFault> {
+    let points: Vec<Vector3> = vertices.iter().copied().map(Vector3::from_array).collect();
+    check_numbers(&points, triangles)?;
+    let corner = points[triangles[0][0] as usize];
+    let near: Vec<Vector3> = points.iter().map(|v| *v - corner).collect();
+    let each = || triangles.iter().map(|triangle| triangle.map(|k| near[k as usize]));
+    let (volume, first_moment, _) = integrals(each());
+    let area: f64 = each().map(|[a, b, c]| 0.5 * (b - a).cross(c - a).length()).sum();
+    // As for meshes: what is thinner than the rounding of single precision has no volume to speak of.
+    let thin = PLANE * furthest_of(&near) * area;
+    if volume <= thin {
+        // What is not closed is neither thin nor inside out.
+        Surface::new(points, triangles.to_vec())?;
+        return Err(if volume < -thin { SolidFault::InsideOut } else { SolidFault::ZeroVolume });
+    }
+    let offset = first_moment / volume;
+    let centroid = corner + offset;
+    if centroid.length() <= 1e-14 * furthest_of(&points) {
+        return Ok((points, Vector3::ZERO));
+    }
+    Ok((near.iter().map(|v| *v - offset).collect(), centroid))
+}
+
+fn furthest_of(points: &[Vector3]) -> f64 {
+    points.iter().fold(0.0, |radius, v| v.length().max(radius))
+}
+
+/// Faces whose normals are looked along for a width: a surface may have a million, the largest of them decide.
+const WIDEST_FACES: usize = 64;
+
+/// The least extent along the principal axes and the normals of the largest flat faces.
+fn least_width_of(surface: &Surface, axes: [Vector3; 3]) -> f64 {
+    let mut faces: Vec<(Vector3, f64)> = surface.flat_faces().collect();
+    faces.sort_by(|a, b| b.1.total_cmp(&a.1));
+    poll(8 * WIDEST_FACES * surface.vertices().len());
+    let across = |normal: Vector3| {
+        let heights = surface.vertices().iter().map(|v| normal.dot(*v));
+        let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+        high - low
+    };
+    let normals = faces.iter().take(WIDEST_FACES).map(|face| face.0).filter(|normal| *normal != Vector3::ZERO);
+    axes.into_iter().chain(normals).map(across).fold(f64::INFINITY, f64::min)
+}
+
 /// Volume, `int x dV` and `int x x' dV`, over the tetrahedra that the faces' triangles make with the origin.
-fn integrals(pieces: &[Polyhedron]) -> (f64, Vector3, Symmetric) {
+fn integrals(triangles: impl Iterator<Item = [Vector3; 3]>) -> (f64, Vector3, Symmetric) {
     let (mut volume, mut first, mut second) = (0.0, Vector3::ZERO, [0.0; 6]);
-    for [a, b, c] in pieces.iter().flat_map(Polyhedron::triangles) {
+    for [a, b, c] in triangles {
         let part = a.dot(b.cross(c)) / 6.0;
         let sum = a + b + c;
         volume += part;

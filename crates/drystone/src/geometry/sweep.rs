@@ -57,8 +57,21 @@ impl Piece {
         Self { vertices, normals, areas, edges, middle, radius }
     }
 
-    /// The convex pieces of a solid.
+    /// The convex pieces of a solid; the triangles of its surface, if it has one. A solid on its way enters another where its
+    /// surface meets the other's. The first triangle of a flat face has the area of all.
     pub fn of_solid(solid: &Solid, pose: &PoseInSpace) -> Vec<Self> {
+        if let Some(surface) = solid.surface() {
+            let mut areas: Vec<f64> = surface.flat_faces().map(|(_, area)| area).collect();
+            let triangle = |k: u32| {
+                let corners = surface.corners(k).map(|v| pose.transform(v).to_array());
+                let normal = pose.rotate(surface.normal(k)).to_array();
+                let area = std::mem::take(&mut areas[surface.face(k) as usize]);
+                let edge = |i: usize| unit_of(minus(corners[(i + 1) % 3], corners[i]));
+                let normals = vec![normal, normal.map(|x| -x)];
+                Self::new(corners.to_vec(), normals, vec![area, area], (0..3).filter_map(edge).collect())
+            };
+            return (0..surface.triangles().len() as u32).map(triangle).collect();
+        }
         let pieces = solid.pieces().iter().map(|piece| {
             let edge = |k: usize| {
                 let [a, b] = piece.edges()[k].ends;
@@ -119,6 +132,12 @@ impl Piece {
         };
         along(&other.vertices, f64::INFINITY, f64::min) - along(&self.vertices, f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// The unit vector along another one, however short.
+fn unit_of(vector: [f64; 3]) -> Option<[f64; 3]> {
+    let length = length(vector);
+    (length > 0.0).then(|| vector.map(|x| x / length))
 }
 
 #[cfg(test)]

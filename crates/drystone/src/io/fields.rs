@@ -72,6 +72,16 @@ impl<'a> Fields<'a> {
         self.read(field, expected(N, true), |value| value.as_array()?.iter().map(as_numbers).collect())
     }
 
+    /// Triples of numbers of vertices.
+    pub fn indices(&self, field: &str) -> Result<Option<Vec<[u32; 3]>>, FileError> {
+        let triple = |value: &Value| -> Option<[u32; 3]> {
+            let number = |value: &Value| value.as_u64().and_then(|k| u32::try_from(k).ok());
+            value.as_array()?.iter().map(number).collect::<Option<Vec<u32>>>()?.try_into().ok()
+        };
+        let expected = "a list of three numbers of vertices each: [[0, 1, 2], ...]";
+        self.read(field, expected, |value| value.as_array()?.iter().map(triple).collect())
+    }
+
     /// An error for a value that cannot be where it is.
     pub fn wrong(&self, what: &str, value: &Value, expected: &str) -> FileError {
         wrong_type(self.file, format!("{}: {what}", self.place), value, expected)

@@ -53,6 +53,8 @@ pub(crate) enum Described<S: Stored> {
     Box(S::Vector),
     /// By its corners; in the plane one list of them.
     Pieces(Vec<Vec<S::Vector>>),
+    /// By a closed surface; in space only.
+    Surface(Vec<[f64; 3]>, Vec<[u32; 3]>),
 }
 
 /// A shape as it is written.
@@ -73,6 +75,13 @@ pub(crate) enum ShapeRecord {
     Solid {
         /// Corners of each.
         pieces: Vec<PieceRecord>,
+    },
+    /// By its surface.
+    Surface {
+        /// Metres.
+        vertices: Vec<[f64; 3]>,
+        /// Three vertices each.
+        triangles: Vec<[u32; 3]>,
     },
 }
 
@@ -132,6 +141,7 @@ impl Stored for Polygon {
         match shape {
             Described::Box(size) => scene.add_box(pose.position, size, pose.angle, options),
             Described::Pieces(pieces) => scene.add_placed_polygon(&pieces.concat(), pose, options),
+            Described::Surface(..) => Err(SceneError::NotInSpace),
         }
     }
 
@@ -145,7 +155,7 @@ impl Stored for Polygon {
 }
 
 impl Stored for Solid {
-    const FIELDS: &'static [&'static str] = &["box", "solid", "position", "orientation"];
+    const FIELDS: &'static [&'static str] = &["box", "solid", "surface", "position", "orientation"];
     const DIMENSION: usize = 3;
 
     fn vector(fields: &Fields, field: &str) -> Result<Option<[f64; 3]>, FileError> {
@@ -161,6 +171,9 @@ impl Stored for Solid {
     }
 
     fn shape(body: &Fields) -> Result<Described<Self>, FileError> {
+        if let Some(value) = body.get("surface") {
+            return surface(body, value);
+        }
         either(body, "solid", |value| {
             let solid = part(body, "solid", value, "pieces")?;
             let pieces = solid.required("pieces")?;
@@ -185,6 +198,7 @@ impl Stored for Solid {
         match shape {
             Described::Box(size) => scene.add_cuboid(pose, size, options),
             Described::Pieces(pieces) => scene.add_solid(&pieces, pose, options),
+            Described::Surface(vertices, triangles) => scene.add_surface(&vertices, &triangles, pose, options),
         }
     }
 
@@ -193,13 +207,30 @@ impl Stored for Solid {
         let piece = |vertices: &[crate::geometry::Vector3]| PieceRecord {
             vertices: vertices.iter().map(|v| v.to_array()).collect(),
         };
-        let shape = match body.box_size {
-            Some(size) => ShapeRecord::Box { size: size.to_vec() },
-            None => ShapeRecord::Solid { pieces: pieces.map(|p| piece(p.vertices())).collect() },
+        let shape = match (body.box_size, body.shape.surface()) {
+            (Some(size), _) => ShapeRecord::Box { size: size.to_vec() },
+            (None, Some(surface)) => ShapeRecord::Surface {
+                vertices: surface.vertices().iter().map(|v| v.to_array()).collect(),
+                triangles: surface.triangles().to_vec(),
+            },
+            (None, None) => ShapeRecord::Solid { pieces: pieces.map(|p| piece(p.vertices())).collect() },
         };
         let PoseInSpace { position, orientation } = body.pose;
         (shape, PoseRecord::Space { position, orientation })
     }
+}
+
+/// A closed surface, if the body has no other shape.
+fn surface(body: &Fields, value: &Value) -> Result<Described<Solid>, FileError> {
+    if let Some((other, value)) = ["box", "solid"].into_iter().find_map(|other| Some((other, body.get(other)?))) {
+        let place = format!("{}: \"{other}\" beside \"surface\"", body.place);
+        return Err(wrong_type(body.file, place, value, "one of the two only"));
+    }
+    let place = format!("{}: \"surface\"", body.place);
+    let shape = Fields::of(body.file, place, value, &["vertices", "triangles"])?;
+    let vertices = shape.points("vertices")?.ok_or_else(|| shape.missing("\"vertices\""))?;
+    let triangles = shape.indices("triangles")?.ok_or_else(|| shape.missing("\"triangles\""))?;
+    Ok(Described::Surface(vertices, triangles))
 }
 
 /// The one of "box" and another shape that a body has.
@@ -215,6 +246,7 @@ fn either<S: Stored>(
             size.map(Described::Box).ok_or_else(|| shape.missing("\"size\""))
         }
         (None, Some(value)) => pieces(value).map(Described::Pieces),
+        (None, None) if S::DIMENSION == 3 => Err(body.missing("\"box\", \"solid\" or \"surface\"")),
         (None, None) => Err(body.missing(&format!("\"box\" or \"{other}\""))),
         (Some(_), Some(value)) => {
             let place = format!("{}: \"{other}\" beside \"box\"", body.place);

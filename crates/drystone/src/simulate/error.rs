@@ -61,6 +61,15 @@ pub enum SimulationError {
     /// A scene to be taken up that does not begin with the world's bodies.
     #[error("the scene does not begin with the world's bodies as they are now: add to a copy of the world's scene")]
     OtherBodies,
+    /// A body that has a surface and no convex pieces.
+    #[error(
+        "block \"{body}\" is a closed surface: bodies that move are made of convex pieces; cut it into them (add_mesh and \
+         imports.load do with surface=False), or take its hull"
+    )]
+    Surface {
+        /// The block.
+        body: String,
+    },
     /// Bytes that are no snapshot of a world, or a damaged one.
     #[error("this is no snapshot of a world: {reason}")]
     Snapshot {

@@ -74,6 +74,11 @@ impl Moving for Solid {
         }
     }
 
+    fn immovable(scene: &SceneOf<Self>) -> Option<String> {
+        let found = scene.bodies().iter().find(|body| body.shape.surface().is_some());
+        found.map(|body| body.name.clone())
+    }
+
     fn of_any(scene: AnyScene) -> Result<SceneOf<Self>, SceneError> {
         scene.in_space()
     }

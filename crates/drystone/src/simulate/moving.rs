@@ -43,6 +43,11 @@ pub trait Moving: Approaching + Assemble {
     /// The law of motion of a formulation, if there is one for such shapes.
     fn law(formulation: Formulation) -> Option<&'static dyn Law<Self>>;
 
+    /// The name of the first body whose motion cannot be simulated.
+    fn immovable(_scene: &SceneOf<Self>) -> Option<String> {
+        None
+    }
+
     /// The scene of such shapes.
     ///
     /// # Errors

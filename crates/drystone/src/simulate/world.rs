@@ -146,6 +146,9 @@ impl<S: Moving> World<S> {
             return Err(SimulationError::Restitution { value: restitution });
         }
         cones.check()?;
+        if let Some(body) = S::immovable(&scene) {
+            return Err(SimulationError::Surface { body });
+        }
         let n = scene.bodies().len();
         let mut world = Self {
             law: S::law(formulation).ok_or(SimulationError::NoSuchLaw { formulation: formulation.name() })?,

@@ -91,6 +91,9 @@ fn swapped(feature: Feature) -> Feature {
         Feature::Solids { a, b } => Feature::Solids { a: b, b: a },
         Feature::Corners { a, b } => Feature::Corners { a: b, b: a },
         Feature::Borders { a, b } => Feature::Borders { a: b, b: a },
+        Feature::Surfaces { pieces: [i, j], triangles: [a, b], corner } => {
+            Feature::Surfaces { pieces: [j, i], triangles: [b, a], corner }
+        }
     }
 }
 

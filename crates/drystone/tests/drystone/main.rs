@@ -27,4 +27,5 @@ mod simulation_reuse;
 mod simulation_trouble;
 mod solids;
 mod structure;
+mod surfaces;
 mod truths;
