@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Any
 from warnings import warn
 
 from drystone import _core, weight
+from drystone.bearing import NearMiss
 from drystone.body import Contact, snapshot
 from drystone.loads import Load, listed, number, turning, vector
 from drystone.overlaps import Overlap
 from drystone.weight import Inertia
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
     from drystone.viewer import Page
@@ -231,6 +234,43 @@ class Scene:
             weight.in_space(mass, center_of_mass, inertia),
         )
 
+    def add_surface(
+        self,
+        vertices: ArrayLike,
+        triangles: ArrayLike,
+        name: str | None = None,
+        density: float = 1.0,
+        friction: float | None = None,
+        fixed: bool = False,
+        *,
+        position: Point = ORIGIN,
+        orientation: Sequence[float] = UPRIGHT,
+        mass: float | None = None,
+        center_of_mass: Point | None = None,
+        inertia: Inertia | None = None,
+    ) -> str:
+        """Add one rigid body within a closed surface and return its name.
+
+        `vertices` (k, 3) are in metres, in a frame that stands at `position`, turned by
+        `orientation`; `triangles` (n, 3) are numbers of vertices, counter-clockwise seen from
+        outside. The body may be concave and curved and have hollows. Its contacts are found on the
+        surface itself (docs/theory/contacts-of-surfaces.md); it can be checked and planned with,
+        and not be simulated. `add_mesh` mends what is wrong with a mesh first.
+
+        The other arguments and the errors are those of `add_box`; SceneError too for a surface
+        that is not closed.
+        """
+        return self._core.add_surface(
+            *_surface(vertices, triangles),
+            _triple(position, "position"),
+            _quaternion(orientation),
+            _name(name),
+            density,
+            friction,
+            fixed,
+            weight.in_space(mass, center_of_mass, inertia),
+        )
+
     def add_mesh(
         self,
         mesh: str | PathLike[str] | Any,
@@ -246,11 +286,17 @@ class Scene:
         max_pieces: int | None = None,
         simplify: float | None = None,
         tolerance: float | None = None,
+        surface: bool | None = None,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
     ) -> str:
-        """Add a mesh as one rigid body of exact convex pieces and return its name.
+        """Add a mesh as one rigid body and return its name.
+
+        The body is made of exact convex pieces if there are few. A mesh that is curved or falls
+        into many is a body within its surface, as of `add_surface`; a MeshWarning says so. With
+        `surface=True` any mesh is one, with `surface=False`, or with `max_pieces`, none: there are
+        convex pieces or an error.
 
         `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface in
         a frame that stands at `position`, turned by `orientation`. `scale` makes metres of its
@@ -262,35 +308,36 @@ class Scene:
         that is what its numbers show, twice their last place; 0 takes them as exact. What is
         mended, made plane or simplified is said in a MeshWarning.
 
-        Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls into more
-        than `max_pieces` (256) convex pieces, and the errors of `add_solid`.
+        Raises MeshError, naming the mesh and the fix, if it encloses no solid, or is to have convex
+        pieces and falls into more than `max_pieces` (256), and the errors of `add_solid`.
         """
         from drystone import meshes
 
-        most = meshes.MOST_PIECES if max_pieces is None else max_pieces
         part = meshes.read_part(
             mesh,
             scale=scale,
             name=name,
             hull=hull,
-            max_pieces=most,
+            max_pieces=max_pieces,
             simplify=simplify,
             tolerance=tolerance,
+            surface=surface,
         )
         for message in part.messages:
             warn(f"{part.name}: {message}", meshes.MeshWarning, stacklevel=2)
-        return self.add_solid(
-            part.pieces,
-            name,
-            density * part.density_factor,
-            friction,
-            fixed,
-            position=position,
-            orientation=orientation,
-            mass=mass,
-            center_of_mass=center_of_mass,
-            inertia=inertia,
-        )
+        options: dict[str, Any] = {
+            "density": density * part.density_factor,
+            "friction": friction,
+            "fixed": fixed,
+            "position": position,
+            "orientation": orientation,
+            "mass": mass,
+            "center_of_mass": center_of_mass,
+            "inertia": inertia,
+        }
+        if part.triangles is None:
+            return self.add_solid(part.pieces, name, **options)
+        return self.add_surface(part.pieces[0], part.triangles, name, **options)
 
     def add_load(
         self,
@@ -473,6 +520,12 @@ class Scene:
         has no contacts and no verdict. Two fixed bodies may overlap."""
         return [Overlap(*pair) for pair in self._core.overlaps()]
 
+    @property
+    def near_misses(self) -> list[NearMiss]:
+        """Every pair of bodies that do not touch, but would with a contact tolerance ten times
+        larger: gaps that nothing was meant to have, or to be without."""
+        return [NearMiss(*pair) for pair in self._core.near_misses()]
+
     def __len__(self) -> int:
         return len(self._core)
 
@@ -543,6 +596,26 @@ def _triple(value: Point, what: str) -> tuple[float, float, float]:
         return float(x), float(y), float(z)
     except (TypeError, ValueError):
         raise _core.SceneError(f"{what} must be three numbers (x, y, z), not {value!r}") from None
+
+
+def _surface(
+    vertices: ArrayLike, triangles: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """Arrays (k, 3) and (n, 3); SceneError for what is none."""
+    import numpy as np
+
+    try:
+        points, numbers = np.asarray(vertices, dtype=np.float64), np.asarray(triangles)
+    except (TypeError, ValueError):
+        raise _core.SceneError("vertices must be an array of three coordinates each") from None
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise _core.SceneError(f"vertices must be (k, 3), not {points.shape}")
+    whole = numbers.ndim == 2 and numbers.shape[1] == 3 and np.issubdtype(numbers.dtype, np.integer)
+    if not whole or ((numbers < 0) | (numbers >= len(points))).any():
+        raise _core.SceneError(
+            f"triangles must be (n, 3) numbers of vertices, each from 0 to {len(points) - 1}"
+        )
+    return points, numbers.astype(np.uint32)
 
 
 def _quaternion(value: Sequence[float]) -> tuple[float, float, float, float]:

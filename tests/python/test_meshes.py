@@ -336,12 +336,15 @@ def test_what_is_no_solid_is_refused(kind: str, says: str) -> None:
         read_part(broken(kind), name="crate")
 
 
+@pytest.mark.filterwarnings("ignore::drystone.meshes.MeshWarning")
 def test_a_surface_through_itself_is_refused() -> None:
     """A leg folded back through the other: the surface encloses their common part twice."""
     mesh = l_shape()
     mesh.vertices[mesh.vertices[:, 0] > 1.5, 0] = -3.0
     with pytest.raises(MeshError, match="goes through itself"):
-        read_part(mesh)
+        read_part(mesh, surface=False)
+    with pytest.raises(ds.SceneError, match=r'block "L": the surface goes through itself at \('):
+        ds.Scene(dimension=3).add_mesh(mesh, name="L", surface=True)
 
 
 def test_the_largest_hole_is_named() -> None:
@@ -387,7 +390,7 @@ def test_a_smooth_mesh_of_a_million_triangles_is_refused_soon(
     with pytest.raises(
         MeshError, match="triangles lie in more than 4000 planes: let them be simplified"
     ):
-        read_part(mesh)
+        read_part(mesh, surface=False)
 
 
 def test_a_million_triangles_of_a_box_are_a_box() -> None:

@@ -173,7 +173,7 @@ def test_from_the_command_line(cli: Callable[..., Ran], tmp_path: Path) -> None:
     mesh, bound, _ = SCANS["cube"]
     mesh.copy().apply_scale(1000).export(tmp_path / "cube.ply")
     arguments = ("import", tmp_path / "cube.ply", "--scale", "0.001")
-    ran = cli(*arguments)
+    ran = cli(*arguments, "--pieces")
     assert (ran.status, ran.out) == (2, "")
     assert "let them be simplified with simplify" in ran.err
     ran = cli(*arguments, "--simplify", bound, "--json")

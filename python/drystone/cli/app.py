@@ -245,12 +245,24 @@ def import_(
         bool, typer.Option("--ground", help="Lay a fixed box under everything.")
     ] = False,
     tolerance: Annotated[
-        float | None,
-        typer.Option(help="Metres that bodies may be apart or overlap and still touch."),
+        str | None,
+        typer.Option(
+            help="Metres that bodies may be apart or overlap and still touch, or auto: as "
+            "little as lets none overlap."
+        ),
     ] = None,
     max_pieces: Annotated[
-        int, typer.Option(min=1, help="At most so many convex pieces a body.")
-    ] = 256,
+        int | None,
+        typer.Option(min=1, help="Convex pieces only, and at most so many a body."),
+    ] = None,
+    surface: Annotated[
+        bool | None,
+        typer.Option(
+            "--surface/--pieces",
+            help="Take all meshes as surfaces, or as convex pieces (256 at most); by default as "
+            "surfaces where they are curved or fall into many pieces.",
+        ),
+    ] = None,
     simplify: Annotated[
         float | None,
         typer.Option(help="Metres that surfaces of scanned meshes may move, to make them simple."),
@@ -292,6 +304,7 @@ def import_(
         split=None if split is None else split.value,
         hull=hull,
         joints=joints.value,
+        surface=surface,
     )
 
 

@@ -26,12 +26,19 @@ def run(
     gravity: str | None,
     fixed: str | None,
     fix: Sequence[str] | None,
+    tolerance: str | None,
     **options: Any,
 ) -> int:
     """0 if there is a scene; what cannot be imported is an error. `options` are those of `load`."""
     names = [*listed(fixed), *(fix or ())]
     with reporting_files():
-        imported = load(file, gravity=_gravity(gravity), fixed=names, **options)
+        imported = load(
+            file,
+            gravity=_gravity(gravity),
+            fixed=names,
+            tolerance=_tolerance(tolerance),
+            **options,
+        )
         if output is not None:
             imported.scene.save(output)
     if as_json:
@@ -39,6 +46,13 @@ def run(
     else:
         _print(imported, output)
     return 0
+
+
+def _tolerance(text: str | None) -> float | str | None:
+    try:
+        return text if text in (None, "auto") else float(str(text))
+    except ValueError:
+        raise InputError(f"--tolerance must be a length in metres or auto, not {text!r}") from None
 
 
 def _gravity(text: str | None) -> tuple[float, ...] | None:
@@ -54,11 +68,13 @@ def _gravity(text: str | None) -> tuple[float, ...] | None:
 def _print(imported: Imported, output: Path | None) -> None:
     out = console()
     bodies = imported.bodies
-    pieces = sum(len(body.pieces) for body in bodies)
+    pieces = sum(len(body.pieces) for body in bodies if body.triangles is None)
+    surfaces = sum(body.triangles is not None for body in bodies)
     fixed = sum(body.fixed for body in bodies)
     count = f"{len(bodies)} {'body' if len(bodies) == 1 else 'bodies'}"
     out.print(
-        f"{imported.format}: {count}, {fixed} of them fixed, {pieces} convex pieces",
+        f"{imported.format}: {count}, {fixed} of them fixed, {pieces} convex pieces"
+        + (f", {surfaces} surfaces" if surfaces else ""),
         style="bold",
     )
     out.print(_bodies(imported))
@@ -81,7 +97,7 @@ def _bodies(imported: Imported) -> Table:
     for body in imported.bodies[:MOST_ROWS]:
         made.add_row(
             shown(body.name),
-            str(len(body.pieces)),
+            str(len(body.pieces)) if body.triangles is None else f"{len(body.triangles)} triangles",
             f"{body.volume:.4g}",
             f"{body.density:.4g}",
             "" if body.friction is None else f"{body.friction:g}",

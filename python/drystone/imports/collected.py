@@ -12,6 +12,7 @@ from drystone._core import SceneError
 from drystone.imports.pose import Pose
 from drystone.imports.weight import Weight
 from drystone.meshes.hull import hull_volume
+from drystone.meshes.surface import signed_volumes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -32,7 +33,7 @@ class FormatError(SceneError):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ImportedBody:
-    """One rigid body: convex pieces (k, 3) in the world, metres."""
+    """One rigid body: convex pieces (k, 3) in the world, metres, or the vertices of its surface."""
 
     name: str
     pieces: list[NDArray[np.float64]]
@@ -45,10 +46,14 @@ class ImportedBody:
     weight: Weight | None = None
     """Of its own, apart from its shape. Its pieces may overlap then, and the density is the mean
     over the sum of their volumes."""
+    triangles: NDArray[np.int64] | None = None
+    """(n, 3), of a body within a surface: numbers of the vertices that are its one piece."""
 
     @property
     def volume(self) -> float:
         """Cubic metres, of the mesh if it was simplified; pieces that overlap count in full."""
+        if self.triangles is not None:
+            return float(signed_volumes(self.pieces[0][self.triangles]).sum())
         return self.density_factor * sum(hull_volume(piece) for piece in self.pieces)
 
     @property
@@ -106,15 +111,19 @@ class Collected:
         density_factor: float = 1.0,
         tolerance: float = 0.0,
         weight: Weight | None = None,
+        triangles: NDArray[np.int64] | None = None,
     ) -> None:
         """One rigid body; a name that is taken gets a number. Its vertices are off by no more than
-        `tolerance`; a `weight` takes the place of the density."""
+        `tolerance`; a `weight` takes the place of the density. With `triangles` it is within a
+        surface, whose vertices are its one piece."""
         self.inexact = max(self.inexact, tolerance)
         density = DENSITY if density is None else density
         if weight is not None:
             density = weight.mass / sum(hull_volume(piece) for piece in pieces)
         name = self._free(name)
-        body = ImportedBody(name, pieces, density, friction, fixed, density_factor, weight)
+        body = ImportedBody(
+            name, pieces, density, friction, fixed, density_factor, weight, triangles
+        )
         self.bodies.append(body)
 
     def add_plane(self, name: str, pose: Pose, friction: float | None = None) -> None:

@@ -124,7 +124,14 @@ def _add(
         raise MeshError(f"block {name}: {error}") from None
     collected.say(f"block {name}", [*said, *part.messages])
     factor, tolerance = part.density_factor, part.tolerance
-    collected.add(name, part.pieces, density_factor=factor, tolerance=tolerance, **body)
+    collected.add(
+        name,
+        part.pieces,
+        density_factor=factor,
+        tolerance=tolerance,
+        triangles=part.triangles,
+        **body,
+    )
 
 
 def _mesh(block: dict[str, Any], key: str) -> tuple[Any, Any, list[str]]:

@@ -18,6 +18,7 @@ import numpy as np
 from drystone.imports.collected import Collected, FormatError
 from drystone.imports.fields import entries, finite, numbers, read_json
 from drystone.imports.pose import Pose, from_euler, from_quaternion
+from drystone.imports.wholes import whole_files
 from drystone.meshes import Part, read_part
 from drystone.meshes.reading import ENDINGS
 
@@ -34,7 +35,11 @@ def read(folder: Path, collected: Collected, **options: Any) -> None:
     if not files:
         raise FormatError(f"{folder}: no mesh files in it ({', '.join(ENDINGS)}) and no {MANIFEST}")
     poses = _asap_poses(folder)
+    wholes = whole_files(files)
     for file in files:
+        if file in wholes:
+            collected.leave_out(file.name, "the whole beside its parts, which have numbers")
+            continue
         part = read_part(file, tolerance=collected.mesh_tolerance, **options)
         _add(collected, part, poses.get(file.stem, Pose.identity()))
     for name in sorted(poses.keys() - {file.stem for file in files}):
@@ -102,7 +107,14 @@ def _add(collected: Collected, part: Part, pose: Pose, **options: Any) -> None:
     collected.say(part.name, part.messages)
     pieces = [pose.apply(piece) for piece in part.pieces]
     factor, tolerance = part.density_factor, part.tolerance
-    collected.add(part.name, pieces, density_factor=factor, tolerance=tolerance, **options)
+    collected.add(
+        part.name,
+        pieces,
+        density_factor=factor,
+        tolerance=tolerance,
+        triangles=part.triangles,
+        **options,
+    )
 
 
 def _like(word: str, known: Iterable[str]) -> str:

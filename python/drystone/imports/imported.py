@@ -8,6 +8,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from drystone._core import DrystoneError, SceneError
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
@@ -16,7 +18,7 @@ from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
 from drystone.imports.rigid import JOINTS
 from drystone.imports.shells import convex_shells, scaled
-from drystone.meshes import MOST_PIECES, MeshError, Part
+from drystone.meshes import MeshError, Part
 from drystone.meshes.part import part_from
 from drystone.meshes.reading import ENDINGS, read_triangles
 
@@ -39,6 +41,16 @@ INEXACT = 1.5
 """Bodies touch within so many times what vertices may be off: three last places. Rounding moves two
 faces by one and three quarters at most, and planes fitted to their corners by little more."""
 
+COARSEST = 0.05
+"""`tolerance="auto"` takes no overlap for inexactness that is more than this share of the shortest
+side of the box around either body."""
+
+MARGIN = 1.01
+"""The tolerance is this many times the deepest overlap."""
+
+TRIES = 5
+"""Scenes made in search of it: with more tolerance what overlaps is a little deeper at most."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Imported:
@@ -60,7 +72,8 @@ class Imported:
             "bodies": [
                 {
                     "name": body.name,
-                    "pieces": len(body.pieces),
+                    "pieces": len(body.pieces) if body.triangles is None else 0,
+                    "triangles": 0 if body.triangles is None else len(body.triangles),
                     "volume": body.volume,
                     "density": body.density,
                     "mass": body.mass,
@@ -84,12 +97,13 @@ def load(
     gravity: Sequence[float] | None = None,
     fixed: Iterable[str] = (),
     ground: bool = False,
-    tolerance: float | None = None,
-    max_pieces: int = MOST_PIECES,
+    tolerance: float | str | None = None,
+    max_pieces: int | None = None,
     simplify: float | None = None,
     split: str | None = None,
     hull: bool = False,
     joints: str = "error",
+    surface: bool | None = None,
 ) -> Imported:
     """A COMPAS assembly, a folder of part meshes, a manifest, a mesh file, MJCF or URDF as a scene.
 
@@ -101,13 +115,17 @@ def load(
     first two may be a dict by names of bodies, for these alone. Bodies named in `fixed` never move;
     `ground` lays a fixed box under all. `tolerance` is the scene's `contact_tolerance`, in metres:
     how far apart bodies of an inexact file may be and still touch, by default 1e-6 of the diagonal
-    of all, or three last places of the numbers where faces of meshes show that these are rounded.
+    of all, or three last places of the numbers where faces of meshes show that these are rounded;
+    "auto" takes more if bodies overlap by more, as little as lets none overlap, and says so.
     `simplify` (metres) lets the surface of mesh files move by so much, so that scans become few
     pieces: see `Scene.add_mesh`.
 
     A mesh file of several objects (`o` of OBJ, nodes of glTF) becomes a body for each, called like
     it; so do the groups (`g`) of an OBJ file without objects. `split="groups"` takes each group as
     a body, `split="none"` all as one.
+
+    `surface` says which meshes are bodies within their surface instead of convex pieces, as of
+    `Scene.add_mesh`: by default those that are curved or fall into many.
 
     `hull` takes the convex hulls of meshes (of MJCF they are taken anyway, as MuJoCo does).
     `joints="fixed"` welds bodies of MJCF and URDF that hang on joints which turn or slide; by
@@ -125,11 +143,14 @@ def load(
         raise FormatError(f"scale must be a positive number, not {scale!r}")
     if joints not in JOINTS:
         raise FormatError(f"joints must be 'error' or 'fixed', not {joints!r}")
+    if isinstance(tolerance, str) and tolerance != "auto":
+        raise FormatError(f"tolerance must be a length in metres or 'auto', not {tolerance!r}")
     # Two bodies touch within it if the surface of each is off by half of it.
-    collected = Collected(mesh_tolerance=None if tolerance is None else tolerance / 2 / scale)
+    given = tolerance if isinstance(tolerance, (int, float)) else None
+    collected = Collected(mesh_tolerance=None if given is None else given / 2 / scale)
     try:
         simplify = None if simplify is None else simplify / scale
-        taking = Taking(max_pieces, simplify, hull, joints, density is None)
+        taking = Taking(max_pieces, simplify, hull, joints, density is None, surface)
         if live:
             kind = _read_data(compas_data.data_of(source), source, collected, taking)
         else:
@@ -161,7 +182,12 @@ def load(
     if isinstance(friction, Mapping):
         collected.set_frictions(friction)
         friction = FRICTION
-    scene = _scene(collected, friction, gravity, tolerance, kind in ("MJCF", "URDF"))
+    touching = _touching(collected) if given is None else given
+    may_lack = kind in ("MJCF", "URDF")
+    if tolerance == "auto":
+        scene = _without_overlaps(collected, friction, gravity, touching, may_lack)
+    else:
+        scene = _scene(collected, friction, gravity, touching, may_lack)
     if collected.lacking:
         count = len(collected.lacking)
         collected.messages.append(
@@ -174,16 +200,22 @@ def load(
 class Taking:
     """How bodies of a file are taken."""
 
-    max_pieces: int
+    max_pieces: int | None
     simplify: float | None
     """In the file's unit of length."""
     hull: bool
     joints: str
     massless_are_fixed: bool
+    surface: bool | None
 
     def for_meshes(self) -> dict[str, Any]:
         """The arguments of those who read meshes."""
-        return {"max_pieces": self.max_pieces, "simplify": self.simplify, "hull": self.hull}
+        return {
+            "max_pieces": self.max_pieces,
+            "simplify": self.simplify,
+            "hull": self.hull,
+            "surface": self.surface,
+        }
 
 
 def _read(path: Path, collected: Collected, taking: Taking, split: str | None) -> str:
@@ -232,9 +264,10 @@ def _read_xml(path: Path, collected: Collected, taking: Taking) -> str:
             if shells is not None:
                 said = f"{file.name}: {len(shells)} nearly convex shells, each taken as its hull"
                 return Part(read.name, shells, 0.0, [said])
-            tolerance = collected.mesh_tolerance
+            options = {**taking.for_meshes(), "tolerance": collected.mesh_tolerance}
             try:
-                return part_from(read, scale, tolerance=tolerance, **taking.for_meshes())
+                # A body has several of them, which may overlap.
+                return part_from(read, scale, **{**options, "surface": False})
             except MeshError as error:
                 raise MeshError(f"{file}: {error}") from None
 
@@ -247,14 +280,12 @@ def _scene(
     collected: Collected,
     friction: float,
     gravity: Sequence[float] | None,
-    tolerance: float | None,
+    tolerance: float,
     may_lack: bool,
 ) -> Scene:
     """The scene of all bodies; one that cannot be taken is an error, unless it `may_lack` it."""
     from drystone.scene import Scene
 
-    if tolerance is None:
-        tolerance = _touching(collected)
     if gravity is None:
         gravity = collected.gravity or (0.0, 0.0, -9.81)
     scene = Scene(3, gravity, friction, contact_tolerance=tolerance)
@@ -276,18 +307,56 @@ def _scene(
     return scene
 
 
+def _without_overlaps(
+    collected: Collected,
+    friction: float,
+    gravity: Sequence[float] | None,
+    tolerance: float,
+    may_lack: bool,
+) -> Scene:
+    """The scene with the least tolerance at which nothing overlaps, if that is no more than
+    inexactness explains; else with `tolerance` (metres), which is tried first."""
+    scene = first = _scene(collected, friction, gravity, tolerance, may_lack)
+    sides = {body.name: _shortest_side(body) for body in collected.bodies}
+    for _ in range(TRIES):
+        overlaps = scene.overlaps
+        if not overlaps:
+            break
+        deepest = max(overlaps, key=lambda overlap: overlap.depth)
+        if deepest.depth > COARSEST * min(sides[deepest.a], sides[deepest.b]):
+            return first
+        tolerance = MARGIN * deepest.depth
+        scene = _scene(collected, friction, gravity, tolerance, may_lack)
+    if scene.overlaps:
+        return first
+    if scene is not first:
+        collected.messages.append(
+            f"bodies overlap by up to {tolerance / MARGIN:.2g} m, which is taken for inexact "
+            f"numbers: bodies touch that are up to {tolerance:.2g} m apart or overlap by that"
+        )
+    return scene
+
+
+def _shortest_side(body: ImportedBody) -> float:
+    points = np.concatenate(body.pieces)
+    return float(np.ptp(points, axis=0).min())
+
+
 def _add(scene: Scene, body: ImportedBody, mass: float | None) -> None:
     weight = body.weight
-    scene.add_solid(
-        body.pieces,
-        name=body.name,
-        density=body.density * body.density_factor,
-        friction=body.friction,
-        fixed=body.fixed,
-        mass=mass,
-        center_of_mass=None if weight is None else weight.center.tolist(),
-        inertia=None if weight is None else weight.inertia,
-    )
+    options: dict[str, Any] = {
+        "name": body.name,
+        "density": body.density * body.density_factor,
+        "friction": body.friction,
+        "fixed": body.fixed,
+        "mass": mass,
+        "center_of_mass": None if weight is None else weight.center.tolist(),
+        "inertia": None if weight is None else weight.inertia,
+    }
+    if body.triangles is None:
+        scene.add_solid(body.pieces, **options)
+    else:
+        scene.add_surface(body.pieces[0], body.triangles, **options)
 
 
 def _touching(collected: Collected) -> float:

@@ -24,5 +24,11 @@ def read(
     for part in parts:
         collected.say(part.name, part.messages)
         factor, tolerance = part.density_factor, part.tolerance
-        collected.add(part.name, part.pieces, density_factor=factor, tolerance=tolerance)
+        collected.add(
+            part.name,
+            part.pieces,
+            density_factor=factor,
+            tolerance=tolerance,
+            triangles=part.triangles,
+        )
     return "mesh" if len(parts) == 1 else "mesh of objects"

@@ -1,4 +1,4 @@
-"""From a mesh to the convex pieces of one rigid body."""
+"""From a mesh to the convex pieces, or the surface, of one rigid body."""
 
 from __future__ import annotations
 
@@ -32,6 +32,14 @@ CONVEX = 1e-7
 MOST_PIECES = 256
 """Convex pieces of a body, unless said otherwise: contacts are found between pieces."""
 
+CUT_PLANES = 100
+"""A concave mesh with faces in more planes is a surface unless pieces are asked for: cutting would
+take longer than all that is asked of it later, and mostly end with too many pieces."""
+
+SHALLOW = 0.2
+"""Radians. Faces that make a hollow edge by turning less are those of a curved or warped surface:
+cutting along each makes slivers."""
+
 MOST_PLANES = 2000
 """Planes of a concave mesh's faces. Cutting takes a time that grows with their square."""
 
@@ -45,11 +53,12 @@ MOST_CORNERS = 2000
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Part:
-    """One rigid body, made of convex pieces that touch and do not overlap."""
+    """One rigid body, made of convex pieces that touch and do not overlap, or within a surface."""
 
     name: str
     pieces: list[NDArray[np.float64]]
-    """The corners (k, 3) of each, metres, in the mesh's own frame."""
+    """The corners (k, 3) of each, metres, in the mesh's own frame. Of a body within a surface one
+    array, of the surface's vertices."""
     volume: float
     """Cubic metres, of the mesh; its pieces have the same unless it was simplified."""
     messages: list[str] = field(default_factory=list)
@@ -58,6 +67,8 @@ class Part:
     """What simplifying did; None if that was not asked for."""
     tolerance: float = 0.0
     """Metres that its vertices may be off where they should be, if its faces show that."""
+    triangles: NDArray[np.int64] | None = None
+    """(n, 3), counter-clockwise from outside, of a body within a surface."""
 
     @property
     def density_factor(self) -> float:
@@ -77,11 +88,16 @@ def read_part(
     scale: float | tuple[float, float, float] = 1.0,
     name: str | None = None,
     hull: bool = False,
-    max_pieces: int = MOST_PIECES,
+    max_pieces: int | None = None,
     simplify: float | None = None,
     tolerance: float | None = None,
+    surface: bool | None = None,
 ) -> Part:
     """The convex pieces of a mesh file (OBJ, STL, PLY, OFF, glTF, GLB) or of a trimesh.Trimesh.
+
+    A mesh that is curved, or falls into many pieces, is a body within its surface instead, which
+    the part's messages say. `surface=True` takes any mesh so; with `surface=False`, or with
+    `max_pieces`, there are convex pieces or an error.
 
     `scale` makes metres of the file's units. `hull` takes the convex hull instead, as simulators do
     with meshes. `simplify` (metres) allows the surface to move by so much, so that scans of many
@@ -90,13 +106,13 @@ def read_part(
     may be from where they should be, so that faces that are plane within it become plane; by
     default, and at least, twice the last place of the numbers. 0 takes them as exact.
 
-    Raises MeshError, naming the mesh and the fix, if it encloses no solid or falls into more than
-    `max_pieces` convex pieces, and OSError if the file cannot be opened.
+    Raises MeshError, naming the mesh and the fix, if it encloses no solid or is to have convex
+    pieces and falls into more than `max_pieces` (256), and OSError if the file cannot be opened.
     """
     label = fspath(source) if isinstance(source, (str, PathLike)) else name or "the mesh"
     try:
         read = read_triangles(source)
-        return part_from(read, scale, name, hull, max_pieces, simplify, tolerance)
+        return part_from(read, scale, name, hull, max_pieces, simplify, tolerance, surface)
     except MeshError as error:
         raise MeshError(f"{label}: {error}") from None
     except BEYOND_USE as error:
@@ -108,9 +124,10 @@ def read_parts(
     *,
     split: str | None = None,
     hull: bool = False,
-    max_pieces: int = MOST_PIECES,
+    max_pieces: int | None = None,
     simplify: float | None = None,
     tolerance: float | None = None,
+    surface: bool | None = None,
 ) -> tuple[list[Part], Split]:
     """A part for each object or group of a mesh file, as `read_part`, and how it was split.
 
@@ -123,6 +140,7 @@ def read_parts(
             "max_pieces": max_pieces,
             "simplify": simplify,
             "tolerance": tolerance,
+            "surface": surface,
         }
         return [_named(read, found, options) for read in found.parts], found
     except MeshError as error:
@@ -153,9 +171,10 @@ def part_from(
     scale: float | tuple[float, float, float] = 1.0,
     name: str | None = None,
     hull: bool = False,
-    max_pieces: int = MOST_PIECES,
+    max_pieces: int | None = None,
     simplify: float | None = None,
     tolerance: float | None = None,
+    surface: bool | None = None,
 ) -> Part:
     """The convex pieces of what a file holds; the rest is as for `read_part`."""
     factors = _factors(scale)
@@ -166,7 +185,7 @@ def part_from(
         triangles = triangles[:, ::-1]
     # Numbers are as exact as they were before they were scaled.
     exact = assumed(read.vertices, float(abs(factors).max()), tolerance)
-    return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify, exact)
+    return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify, exact, surface)
 
 
 def part_of(
@@ -174,40 +193,83 @@ def part_of(
     vertices: NDArray[np.float64],
     triangles: NDArray[np.int64],
     quietly: bool = False,
-    max_pieces: int = MOST_PIECES,
+    max_pieces: int | None = None,
     simplify: float | None = None,
     exact: Exactness | None = None,
+    surface: bool | None = None,
 ) -> Part:
-    """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3).
+    """The convex pieces of a surface given as vertices (k, 3), metres, and triangles (n, 3), or the
+    surface; see `read_part`.
 
     `exact` says how far vertices may be from where they should be; by default what the numbers
     show. Faces that are plane within that become plane.
     """
     if simplify is not None:
-        return _simplified(name, vertices, triangles, quietly, max_pieces, simplify)
-    _refuse_too_fine(vertices, triangles)
-    surface = repaired(vertices, triangles.copy(), quietly)
-    _check_volume(surface)
-    volume, area = surface.volume, surface.area
-    tight = FLAT * surface.diagonal
-    exact = shown(surface, exact or assumed(surface.vertices), tight)
-    tolerance = evened(surface, exact, tight, MOST_PLANES)
-    middle = surface.vertices.mean(axis=0)  # where numbers are exact to the last bits
-    if _is_convex(surface, exact):
-        pieces = [surface.vertices - middle]
+        most = MOST_PIECES if max_pieces is None else max_pieces
+        return _simplified(name, vertices, triangles, quietly, most, simplify)
+    pieces_only = max_pieces is not None if surface is None else not surface
+    if pieces_only:
+        _refuse_too_fine(vertices, triangles)
+    mesh = repaired(vertices, triangles.copy(), quietly)
+    _check_volume(mesh)
+    volume = mesh.volume
+    tight = FLAT * mesh.diagonal
+    exact = shown(mesh, exact or assumed(mesh.vertices), tight)
+    given, before = mesh.vertices, len(mesh.messages)
+    if not surface:
+        most = MOST_PIECES if max_pieces is None else max_pieces
+        try:
+            tolerance = evened(mesh, exact, tight, MOST_PLANES)
+            pieces = _pieces(mesh, exact, tolerance, volume, most, pieces_only)
+            return Part(name, pieces, volume, mesh.messages, tolerance=exact.tolerance)
+        except MeshError as reason:
+            if pieces_only:
+                raise
+            del mesh.messages[before:]
+            mesh.vertices = given
+            mesh.messages.append(f"{_first(reason)}: taken as the surface that it is")
+    return Part(
+        name,
+        [mesh.vertices],
+        mesh.volume,
+        mesh.messages,
+        tolerance=exact.tolerance,
+        triangles=mesh.triangles,
+    )
+
+
+def _first(reason: MeshError) -> str:
+    """What is wrong, without what to do about it."""
+    return str(reason).partition(": ")[0]
+
+
+def _pieces(
+    mesh: Surface,
+    exact: Exactness,
+    tolerance: float,
+    volume: float,
+    most: int,
+    whatever_it_takes: bool,
+) -> list[NDArray[np.float64]]:
+    """The convex pieces of a mesh; MeshError if there are more than `most`, or would be."""
+    middle = mesh.vertices.mean(axis=0)  # where numbers are exact to the last bits
+    if _is_convex(mesh, exact):
+        pieces = [mesh.vertices - middle]
     else:
-        corners = surface.corners - middle
-        pieces = Decomposition(corners, tolerance, MOST_PLANES, max_pieces).pieces()
-    pieces = _solid(surface, pieces, tolerance, middle)
+        corners = mesh.corners - middle
+        if not whatever_it_takes:
+            _refuse_curved(mesh, tolerance)
+        pieces = Decomposition(corners, tolerance, MOST_PLANES, most).pieces()
+    pieces = _solid(mesh, pieces, tolerance, middle)
     missing = sum(hull_volume(piece) for piece in pieces) - volume
-    if abs(missing) > max(max(tolerance, exact.tolerance) * area, CONVEX * volume):
+    if abs(missing) > max(max(tolerance, exact.tolerance) * mesh.area, CONVEX * volume):
         raise MeshError(
             f"it encloses {volume:.4g} cubic metres but its convex pieces {volume + missing:.4g}: "
             "its surface goes through itself; join its parts to one solid and export it again"
         )
     for piece in pieces:
         _check_corners(piece)
-    return Part(name, pieces, volume, surface.messages, tolerance=exact.tolerance)
+    return pieces
 
 
 def _is_convex(surface: Surface, exact: Exactness) -> bool:
@@ -224,6 +286,16 @@ def _is_convex(surface: Surface, exact: Exactness) -> bool:
         return False
     surface.messages.append(f"{exact.reason}: within that it is convex, and taken as its hull")
     return True
+
+
+def _refuse_curved(mesh: Surface, tolerance: float) -> None:
+    """Fail at once on a concave mesh of many planes, or with edges that are hardly hollow."""
+    if at_least_planes(mesh.corners, tolerance, CUT_PLANES) > CUT_PLANES:
+        raise MeshError(f"it is concave, with faces in more than {CUT_PLANES} planes")
+    turns, heights = mesh.hollows()
+    shallow = (turns < SHALLOW)[heights > tolerance]
+    if 2 * shallow.sum() > len(shallow):
+        raise MeshError("it is hollow mostly where its faces turn by little")
 
 
 def _solid(

@@ -51,6 +51,32 @@ class Surface:
         """Length of the bounding box's diagonal, metres."""
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
 
+    def hollows(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Of each edge at which the surface is hollow: the angle (radians) by which its faces turn,
+        and how far (metres) either reaches above the other's plane."""
+        count = len(self.triangles)
+        halves = np.concatenate([self.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+        order = np.lexsort((halves.max(axis=1), halves.min(axis=1)))
+        ends = np.sort(halves[order], axis=1)
+        same = (ends[1:] == ends[:-1]).all(axis=1)
+        one, two = order[:-1][same] % count, order[1:][same] % count
+        a, b, c = np.moveaxis(self.corners, 1, 0)
+        crosses = np.cross(b - a, c - a)
+        lengths = np.linalg.norm(crosses, axis=1)
+        usable = (lengths[one] > 0) & (lengths[two] > 0)
+        one, two = one[usable], two[usable]
+        normals = crosses / np.where(lengths > 0, lengths, 1.0)[:, None]
+
+        def above(face: NDArray[np.int64], other: NDArray[np.int64]) -> NDArray[np.float64]:
+            arms = self.corners[other] - self.corners[face][:, :1]
+            heights: NDArray[np.float64] = np.einsum("nik,nk->ni", arms, normals[face]).max(axis=1)
+            return heights
+
+        heights = np.minimum(above(one, two), above(two, one))
+        cosines = np.einsum("ij,ij->i", normals[one], normals[two])
+        hollow = heights > 0
+        return np.arccos(np.clip(cosines, -1, 1))[hollow], heights[hollow]
+
 
 def repaired(vertices: NDArray[np.float64], triangles: NDArray[np.int64], quietly: bool) -> Surface:
     """A closed surface, its triangles counter-clockwise from outside; MeshError if there is none.
