@@ -403,6 +403,7 @@ class StructureForces:
 
     `blocks[k]` is its number of movable bodies, `stands[k]` whether forces hold it up. `contact` is
     an index into `Scene.contacts()`; `force` (n, 2 or 3) acts on the contact's second body, N.
+    `hands[k]` are held blocks with what the hand does to each: force, N, and moment, N m.
     """
 
     blocks: NDArray[np.int64]
@@ -410,6 +411,7 @@ class StructureForces:
     offsets: NDArray[np.int64]
     contact: NDArray[np.int64]
     force: NDArray[np.float64]
+    hands: list[list[tuple[str, list[float]]]]
 
 @final
 class World:
@@ -639,11 +641,14 @@ def forces_along(
     every: int = 1,
     progress: Callable[[int, int], None] | None = None,
     cones: tuple[int, str] | None = None,
+    held: Sequence[Sequence[str]] = (),
+    any_forces: bool = False,
 ) -> StructureForces:
     """Contact forces while movable bodies are put up in an order, the first put up first.
 
     Of structures whose number of blocks is that of all less a multiple of `every`. `progress` is
-    called with (blocks placed, blocks in all) a few times a second.
+    called with (blocks placed, blocks in all) a few times a second. `held[k]` are the blocks that
+    hands hold in the structure of k + 1 blocks.
     """
 
 def disassembly_graph(scene: Scene) -> list[tuple[list[str], bool]]:

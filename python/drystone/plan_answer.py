@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from drystone import _core, tables
 from drystone.cones import CONES, FACETS
+from drystone.contact_force import CANONICAL
 from drystone.json_text import write_json
 from drystone.scene import Scene
 from drystone.verdict import Verdict, counted, shorten
@@ -229,15 +230,20 @@ class Plan:
 
         pictures.save(pictures.plan_figure(self), path)
 
-    def view(self, progress: Callable[[int, int], None] | None = None) -> Page:
+    def view(
+        self, progress: Callable[[int, int], None] | None = None, *, forces: str = CANONICAL
+    ) -> Page:
         """A page that steps through the order, with the contact forces of every structure.
+
+        They are those of least norm (see `Verdict.forces`), in long plans of every k-th structure;
+        with `forces="any"` those that are found first, which takes less time.
 
         Save it, or let a notebook show it. The forces are computed here; `progress` is called with
         (blocks placed, blocks in all) a few times a second.
         """
         from drystone import viewer
 
-        return viewer.plan_page(self, progress)
+        return viewer.plan_page(self, progress, forces)
 
     def _repr_svg_(self) -> str:
         from drystone import pictures

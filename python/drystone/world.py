@@ -141,7 +141,10 @@ class World:
 
     @property
     def forces(self) -> tuple[ContactForce, ...]:
-        """Mean force of the last step at every contact point that bears."""
+        """Mean force of the last step at every contact point that bears.
+
+        If nothing moved in it, of all forces that hold the bodies those of least norm, as `check`
+        gives them; computed when asked for. The world itself goes on with its own."""
         return tuple(ContactForce._of(force) for force in self._core.forces())
 
     @property

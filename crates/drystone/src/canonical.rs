@@ -20,7 +20,7 @@ mod section;
 use crate::{
     check::Verdict,
     contact::Contact,
-    formulate::{Assembly, BlockSet, ContactForce, FrictionCone},
+    formulate::{Assembly, BlockSet, Components, ContactForce, FrictionCone},
     geometry::length,
     proof::{accelerations_under, moving},
 };
@@ -40,41 +40,69 @@ const NONE: f64 = 1e-12;
 pub fn canonical_forces(assembly: &Assembly, cone: FrictionCone, verdict: &Verdict) -> Vec<ContactForce> {
     let (mut blocks, none) = (BlockSet::empty(assembly.blocks()), BlockSet::empty(assembly.blocks()));
     verdict.checked.iter().filter_map(|&body| assembly.block_of(body)).for_each(|block| blocks.insert(block));
-    let own: Vec<ContactForce> = verdict.forces.iter().map(|(_, force)| *force).collect();
-    let (found, right) = if verdict.stable {
-        let found = least_norm(assembly, &blocks, &none, assembly.cone_of_rest(cone), None);
-        let right = moving(assembly, &accelerations_under(assembly, &blocks, &found), &found).is_empty();
-        (found, right)
+    let found = if verdict.stable {
+        holding_up(assembly, &blocks, &none, cone)
     } else {
-        let found = least_norm(assembly, &blocks, &none, cone, Some(&own));
-        let right = same_resultants(assembly, &blocks, &found, &own);
-        (found, right)
+        let at = |(contact, force): &(Contact, ContactForce)| (contact.bodies, contact.point, force.force);
+        as_strong_as(assembly, &blocks, cone, verdict.forces.iter().map(at))
     };
-    if right { found } else { own }
+    found.unwrap_or_else(|| verdict.forces.iter().map(|(_, force)| *force).collect())
 }
 
-/// Whether two sets of forces leave every block with the same acceleration, as far as this counts as rest.
-fn same_resultants(assembly: &Assembly, blocks: &BlockSet, found: &[ContactForce], other: &[ContactForce]) -> bool {
-    let (mut left, right) =
-        (accelerations_under(assembly, blocks, found), accelerations_under(assembly, blocks, other));
-    for ((_, a), (_, b)) in left.iter_mut().zip(&right) {
-        (0..6).for_each(|k| a[k] -= b[k]);
-    }
-    moving(assembly, &left, found).is_empty()
-}
-
-/// The forces of least norm at every contact point of some blocks of which some are held, ascending by contact. They balance the
-/// weights of the others, or what the forces given do.
-pub(crate) fn least_norm(
+/// The canonical forces that hold blocks up of which some are held by hands, if there are any; within Coulomb's cones unless the
+/// pyramids lie around these.
+pub(crate) fn holding_up(
     assembly: &Assembly,
     blocks: &BlockSet,
     held: &BlockSet,
     cone: FrictionCone,
-    balanced: Option<&[ContactForce]>,
+) -> Option<Vec<ContactForce>> {
+    let found = least_norm(assembly, blocks, held, assembly.cone_of_rest(cone), None);
+    let falling = moving(assembly, &accelerations_under(assembly, blocks, &found), &found);
+    falling.iter().all(|(block, _)| held.contains(*block)).then_some(found)
+}
+
+/// A force on the second of two bodies at a point, and its opposite on the first.
+pub(crate) type Between = ([usize; 2], [f64; 3], [f64; 3]);
+
+/// The forces of least norm that do to every block what some forces within the cones do. None if rounding does not allow it.
+pub(crate) fn as_strong_as(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    cone: FrictionCone,
+    forces: impl Iterator<Item = Between>,
+) -> Option<Vec<ContactForce>> {
+    let mut balanced = vec![[0.0; 6]; assembly.blocks()];
+    for (bodies, point, force) in forces {
+        for (body, sign) in bodies.into_iter().zip([1.0, -1.0]) {
+            let Some(block) = assembly.block_of(body) else { continue };
+            let wrench = assembly.bodies()[body].wrench(force.map(|f| sign * f), point);
+            (0..6).for_each(|k| balanced[block][k] += wrench[k]);
+        }
+    }
+    let found = least_norm(assembly, blocks, &BlockSet::empty(assembly.blocks()), cone, Some(&balanced));
+    let mut left = accelerations_under(assembly, blocks, &found);
+    for (block, left) in &mut left {
+        let own = assembly.applied(*block).iter().zip(assembly.inverse_mass(*block));
+        for (&k, (load, inverse)) in assembly.components().iter().zip(own) {
+            left[k] -= (load - balanced[*block][k]) * inverse;
+        }
+    }
+    moving(assembly, &left, &found).is_empty().then_some(found)
+}
+
+/// The forces of least norm at every contact point of some blocks of which some are held, ascending by contact. They balance the
+/// loads of the others, or other wrenches on them.
+fn least_norm(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    held: &BlockSet,
+    cone: FrictionCone,
+    balanced: Option<&[Components]>,
 ) -> Vec<ContactForce> {
     let mut space = assembly.held_body_space(blocks, held, cone);
-    if let Some(forces) = balanced {
-        space.balance(forces);
+    if let Some(wrenches) = balanced {
+        space.balance(wrenches);
     }
     let contacts: Vec<&Contact> = space.contacts().collect();
     let faces = faces(assembly, &contacts);

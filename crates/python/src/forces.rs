@@ -6,7 +6,7 @@ use crate::{
     scene::Scene,
     watch::{in_python, interruptible},
 };
-use drystone::plan as core;
+use drystone::plan::{self as core, Course, WhichForces};
 use numpy::{PyArray1, PyArray2};
 use pyo3::{exceptions::PyValueError, prelude::*};
 use std::time::{Duration, Instant};
@@ -19,6 +19,7 @@ pub struct StructureForces {
     offsets: Py<PyArray1<i64>>,
     contact: Py<PyArray1<i64>>,
     force: Py<PyArray2<f64>>,
+    hands: Vec<Vec<(String, Vec<f64>)>>,
 }
 
 /// What `StructureForces` is made of, as it grows.
@@ -29,6 +30,7 @@ struct Gathered {
     offsets: Vec<i64>,
     contact: Vec<i64>,
     force: Vec<[f64; 3]>,
+    hands: Vec<Vec<(usize, [f64; 6])>>,
 }
 
 impl Gathered {
@@ -40,13 +42,14 @@ impl Gathered {
             self.force.push(force.force);
         }
         self.offsets.push(self.contact.len() as i64);
+        self.hands.push(structure.hands);
     }
 }
 
 const PERIOD: Duration = Duration::from_millis(100);
 
 #[pyfunction]
-#[pyo3(signature = (scene, order, every=1, progress=None, cones=None))]
+#[pyo3(signature = (scene, order, every=1, progress=None, cones=None, held=Vec::new(), any_forces=false))]
 pub fn forces_along(
     py: Python<'_>,
     scene: &Scene,
@@ -54,6 +57,8 @@ pub fn forces_along(
     every: usize,
     progress: Option<Py<PyAny>>,
     cones: Option<(usize, String)>,
+    held: Vec<Vec<String>>,
+    any_forces: bool,
 ) -> PyResult<StructureForces> {
     if every == 0 {
         return Err(PyValueError::new_err("every must be one or more"));
@@ -64,7 +69,10 @@ pub fn forces_along(
     interruptible(py, || {
         let blocks = assembly.named(&order)?;
         let wanted = |placed: usize| (blocks.len() - placed).is_multiple_of(every);
-        core::forces_along(&assembly, &blocks, wanted, |structure| {
+        let held = held.iter().map(|names| assembly.named(names)).collect::<Result<Vec<_>, _>>()?;
+        let forces = if any_forces { WhichForces::Any } else { WhichForces::Canonical };
+        let course = Course { order: &blocks, held: &held, forces };
+        core::forces_along(&assembly, &course, wanted, |structure| {
             let placed = structure.blocks;
             gathered.add(structure);
             if last.elapsed() >= PERIOD {
@@ -78,7 +86,13 @@ pub fn forces_along(
     if let Some(error) = stopped {
         return Err(error);
     }
+    let hand = |&(block, wrench): &(usize, [f64; 6])| {
+        let own = assembly.components().iter().map(|&k| wrench[k]).collect();
+        (assembly.body(block).name.clone(), own)
+    };
+    let hands = gathered.hands.iter().map(|hands| hands.iter().map(hand).collect()).collect();
     Ok(StructureForces {
+        hands,
         blocks: vector(py, gathered.blocks).unbind(),
         stands: vector(py, gathered.stands).unbind(),
         offsets: vector(py, gathered.offsets).unbind(),

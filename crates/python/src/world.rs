@@ -194,13 +194,13 @@ impl World {
         Ok(with_world!(&*self.core.read()?, world => crate::arrays::vector(py, world.motionless().to_vec())))
     }
 
-    /// Mean forces of the last step at the contacts that bear.
-    fn forces(&self) -> PyResult<Vec<ContactForce>> {
+    /// Mean forces of the last step at the contacts that bear: the canonical ones if nothing moved in it.
+    fn forces(&self, py: Python<'_>) -> PyResult<Vec<ContactForce>> {
         let forces = with_world!(&*self.core.read()?, world => {
             let dt = world.options().dt;
-            let bearing = world.contact_impulses().into_iter().filter(|contact| contact.along_normal > 0.0);
+            let bearing = interruptible(py, || world.bearing_impulses())?;
             let names: Vec<&str> = world.names().collect();
-            bearing.map(|contact| ContactForce::of_impulse(&names, &contact, dt)).collect()
+            bearing.into_iter().map(|contact| ContactForce::of_impulse(&names, &contact, dt)).collect()
         });
         Ok(forces)
     }

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from drystone.contact_force import CANONICAL
 from drystone.viewer.of_plan import Progress, plan_recording
 from drystone.viewer.of_run import run_recording
 from drystone.viewer.of_scene import scene_recording
@@ -25,14 +26,14 @@ if TYPE_CHECKING:
 __all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page", "scene_page"]
 
 
-def plan_page(plan: Plan, progress: Progress | None = None) -> Page:
+def plan_page(plan: Plan, progress: Progress | None = None, which: str = CANONICAL) -> Page:
     """The order of removal, step by step; see `plan_recording`.
 
     >>> import drystone as ds
     >>> plan_page(ds.plan(ds.scenes.column(4)))
     <Page: plan, 4 frames of 4 bodies>
     """
-    return Page(plan_recording(plan, progress))
+    return Page(plan_recording(plan, progress, which))
 
 
 def scene_page(scene: Scene) -> Page:

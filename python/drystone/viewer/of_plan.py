@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drystone import _core
+from drystone.contact_force import ANY, CANONICAL, which_forces
+from drystone.text import shown
 from drystone.verdict import Verdict, counted, shorten
 from drystone.viewer import budget
 from drystone.viewer.contract import ABSENT, FALLING, NEXT, PRESENT
@@ -17,22 +19,32 @@ from drystone.viewer.recording import FrameForces, Recording, Series, rows_of
 
 if TYPE_CHECKING:
     from drystone.plan_answer import Plan
-    from drystone.scene import Scene
 
 Progress = Callable[[int, int], None]
 """Called with (blocks placed, blocks in all) a few times a second."""
+
+Hands = list[tuple[str, list[float]]]
+"""Held blocks, and the wrench of the hand on each: force, N, and moment about its centre, N m."""
+
+MOST_POINTS = {2: 400_000, 3: 150_000}
+"""Canonical forces are computed of so many contact points, those of all frames together, by
+dimension: for some 10 s. Of longer plans every k-th structure has them."""
 
 SLACK = 8
 """Forces are computed of so many times what a page may hold before they are thinned on the way."""
 
 
-def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
+def plan_recording(
+    plan: Plan, progress: Progress | None = None, which: str = CANONICAL
+) -> Recording:
     """The order of `plan` step by step, with contact forces of every structure on the way.
 
     Without an order it is the largest structure reached, taken apart as it was put up; an assembly
-    that does not stand as a whole is one frame. Where a structure is redundant, other forces hold
-    it up as well.
+    that does not stand as a whole is one frame. The forces are those of least norm, as in
+    `Verdict.forces`, or with `which` "any" those found first; the latter not of structures that
+    stand only because blocks are held.
     """
+    which_forces(which)
     headline = str(plan).partition("; ")[0]
     if plan.status == "whole_falls" and plan.whole is not None:
         return _fallen(plan, plan.whole, headline)
@@ -41,9 +53,11 @@ def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
         f"{counted(plan.tests, 'stability test')} ({plan.test}), {counted(plan.pivots, 'pivot')}. "
         "A chart's value at a step is that of all tests on structures of as many blocks; the whole "
         "is checked apart. Where a structure is redundant, other forces hold it up as well."
+        + (" Those shown have the least norm." if which == CANONICAL else "")
     ]
-    if any(plan.holds):
+    if any(plan.holds) and which == ANY:
         notes.append("No forces are shown of structures that stand only because blocks are held.")
+    forces, hands = _forces(plan, order, progress, which)
     return Recording(
         kind="plan",
         title=headline,
@@ -51,9 +65,9 @@ def plan_recording(plan: Plan, progress: Progress | None = None) -> Recording:
         states=_states(plan, order),
         held=_held(plan, len(order) + 1) if any(plan.holds) else None,
         gravity=plan.scene.gravity,
-        forces=_forces(plan.scene, order, progress, plan.cones),
+        forces=forces,
         series=_series(plan, len(order)),
-        captions=_captions(plan, order),
+        captions=_captions(plan, order, hands),
         notes=notes,
     )
 
@@ -81,7 +95,7 @@ def _held(plan: Plan, frames: int) -> NDArray[np.bool_]:
     return held
 
 
-def _captions(plan: Plan, order: Sequence[str]) -> list[tuple[int, str]]:
+def _captions(plan: Plan, order: Sequence[str], hands: dict[int, Hands]) -> list[tuple[int, str]]:
     captions = []
     for step in range(len(order) + 1):
         left = counted(len(order) - step, "block")
@@ -98,6 +112,9 @@ def _captions(plan: Plan, order: Sequence[str]) -> list[tuple[int, str]]:
             text += f" Held: {shorten(plan.holds[step])}."
         if step < len(order):
             text += f" Next: {_next_step(plan, order, step)}."
+        for name, wrench in hands.get(step, ()):
+            force = float(np.linalg.norm(wrench[: plan.scene.dimension]))
+            text += f" The hand on {shown(name)} bears {force:.3g} N."
         captions.append((step, text))
     return captions
 
@@ -140,14 +157,20 @@ def _series(plan: Plan, blocks: int) -> list[Series]:
 
 
 def _forces(
-    scene: Scene, order: Sequence[str], progress: Progress | None, cones: tuple[int, str]
-) -> FrameForces:
-    """Of order[k:] in frame k; the bare supports are the last frame."""
+    plan: Plan, order: Sequence[str], progress: Progress | None, which: str
+) -> tuple[FrameForces, dict[int, Hands]]:
+    """Of order[k:] in frame k, and what hands do there; the bare supports are the last frame."""
+    scene = plan.scene
     contacts = scene.contacts
     index = {name: body for body, name in enumerate(scene.names)}
-    expected = len(contacts) * len(order) / 2 * budget.FORCE_BYTES[scene.dimension]
-    every = max(1, ceil(expected / (SLACK * budget.FILE.forces)))
-    found = _core.forces_along(scene._core, order[::-1], every, progress, cones)
+    points_in_all = len(contacts) * len(order) / 2
+    every = max(1, ceil(points_in_all * budget.FORCE_BYTES[scene.dimension] / _most_bytes()))
+    if which == CANONICAL:
+        every = max(every, ceil(points_in_all / MOST_POINTS[scene.dimension]))
+    held = [list(names) for names in reversed(plan.holds)]
+    found = _core.forces_along(
+        scene._core, order[::-1], every, progress, plan.cones, held[-len(order) :], which == ANY
+    )
     frames = len(order) - found.blocks[::-1]
     counts = np.zeros(len(order) + 1, dtype=np.int64)
     counts[frames] = np.diff(found.offsets)[::-1]
@@ -160,7 +183,12 @@ def _forces(
     points = points.reshape(-1, scene.dimension)
     at = found.contact[rows]
     offsets = np.concatenate([[0], np.cumsum(counts)])
-    return FrameForces(offsets, pairs[at], points[at], found.force[rows], kept)
+    hands = {len(order) - int(n): h for n, h in zip(found.blocks, found.hands, strict=True) if h}
+    return FrameForces(offsets, pairs[at], points[at], found.force[rows], kept), hands
+
+
+def _most_bytes() -> int:
+    return SLACK * budget.FILE.forces
 
 
 def _fallen(plan: Plan, whole: Verdict, headline: str) -> Recording:

@@ -129,6 +129,11 @@ impl Assembly {
         cone == FrictionCone::Round && !self.in_plane() && !self.axes.is_empty()
     }
 
+    /// All movable blocks.
+    pub(crate) fn every_block(&self) -> BlockSet {
+        BlockSet::full(self.blocks())
+    }
+
     /// The friction cones of the forces of what was found to stand within these: Coulomb's, if the pyramids lie within.
     pub(crate) fn cone_of_rest(&self, cone: FrictionCone) -> FrictionCone {
         if self.cones.bound == Bound::Inscribed { FrictionCone::Round } else { cone }

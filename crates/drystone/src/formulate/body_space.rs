@@ -189,20 +189,10 @@ impl BodySpace<'_> {
         self.force_along(self.points[point].contact, &self.points[point].frame, local)
     }
 
-    /// Takes for the loads what some contact forces balance, in place of the weights.
-    pub fn balance(&mut self, forces: &[ContactForce]) {
-        let mut load = vec![[0.0; 6]; self.assembly.blocks()];
-        for force in forces {
-            let contact = &self.assembly.contacts()[force.contact];
-            for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
-                let body = contact.bodies[side];
-                let Some(block) = self.assembly.block_of(body) else { continue };
-                let wrench = self.assembly.bodies()[body].wrench(force.force.map(|f| sign * f), contact.point);
-                (0..6).for_each(|k| load[block][k] += wrench[k]);
-            }
-        }
+    /// Takes other wrenches for the loads, one for each block of the assembly.
+    pub fn balance(&mut self, wrenches: &[Components]) {
         let components = self.assembly.components();
-        let own = |block: &usize| components.iter().map(|&c| load[*block][c]).collect::<Vec<_>>();
+        let own = |&block: &usize| components.iter().map(move |&c| wrenches[block][c]);
         self.problem.load = self.blocks.iter().flat_map(own).collect();
     }
 

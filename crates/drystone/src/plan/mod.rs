@@ -41,7 +41,7 @@ mod whole;
 pub use ahead::Ahead;
 pub use clear_path::Blocked;
 pub use collapse::Collapse;
-pub use forces::{StructureForces, forces_along};
+pub use forces::{Course, StructureForces, WhichForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
 pub use outcome::{

@@ -16,6 +16,7 @@
 //! IV; the theory is in docs/theory/velocity-level.md. What depends on the dimension is behind one trait, `moving.rs`.
 
 mod acceleration_level;
+mod at_rest;
 mod coulomb;
 mod error;
 mod formulation;

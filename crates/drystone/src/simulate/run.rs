@@ -45,6 +45,13 @@ pub struct Run<S: Moving = Polygon> {
     pub contacts: Vec<Vec<ContactImpulse<S::Vector>>>,
 }
 
+/// What is shown of the last step's impulses: the same of the next one, if this has the same.
+struct Known<S: Moving> {
+    own: Vec<ContactImpulse<S::Vector>>,
+    still: Vec<bool>,
+    bearing: Vec<ContactImpulse<S::Vector>>,
+}
+
 /// Makes steps and records them, with the impulses at the contacts if `forces` says so. `go_on` is asked before every
 /// step, with the number of steps made; a step that is stopped on the way ends the run too.
 pub fn run<S: Moving>(
@@ -61,6 +68,7 @@ pub fn run<S: Moving>(
         contacts: Vec::new(),
     };
     run.take_down(world);
+    let mut known: Option<Known<S>> = None;
     for made in 0..steps {
         if !go_on(made) {
             run.ending = Ending::Interrupted;
@@ -79,8 +87,11 @@ pub fn run<S: Moving>(
         }
         run.take_down(world);
         if forces {
-            let bearing = world.contact_impulses().into_iter().filter(|contact| contact.along_normal > 0.0);
-            run.contacts.push(bearing.collect());
+            let (own, still) = (world.contact_impulses(), world.motionless().to_vec());
+            let again = known.take().filter(|known| known.own == own && known.still == still);
+            let now = again.unwrap_or_else(|| Known { bearing: world.bearing_impulses(), own, still });
+            run.contacts.push(now.bearing.clone());
+            known = Some(now);
         }
     }
     run

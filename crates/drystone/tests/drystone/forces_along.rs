@@ -4,7 +4,7 @@ use drystone::{
     Scene,
     check::check_blocks,
     formulate::{Assembly, BlockSet, ContactForce},
-    plan::{Limits, Quiet, StructureForces, Test, forces_along, plan},
+    plan::{Course, Limits, Quiet, StructureForces, Test, WhichForces, forces_along, plan},
     scenes,
 };
 
@@ -12,7 +12,7 @@ fn structures(assembly: &Assembly, order: &[usize]) -> Vec<StructureForces> {
     let mut every = Vec::new();
     forces_along(
         assembly,
-        order,
+        &Course { order, ..Course::default() },
         |_| true,
         |structure| {
             every.push(structure);
@@ -98,7 +98,7 @@ fn only_what_is_wanted_is_shown_until_enough() {
     let mut shown = Vec::new();
     forces_along(
         &assembly,
-        &order,
+        &Course { order: &order, forces: WhichForces::Any, ..Course::default() },
         |placed| placed % 2 == 1,
         |structure| {
             shown.push(structure.blocks);
@@ -107,4 +107,27 @@ fn only_what_is_wanted_is_shown_until_enough() {
     )
     .unwrap();
     assert_eq!(shown, [1, 3, 5]);
+}
+
+/// The hand that holds the upper of two blocks carries it, and nothing presses on the lower; a hand on the lower one carries both,
+/// and the ground nothing.
+#[test]
+fn hands_bear_what_contacts_do_not() {
+    let assembly = Assembly::new(&scenes::column(3, 0.5).unwrap()).unwrap(); // a fixed block and two that move
+    let weight = -assembly.applied(0)[1];
+    for (held, by_hand, pressed) in [(1, weight, [weight, 0.0]), (0, 2.0 * weight, [0.0, weight])] {
+        let holds = [vec![], vec![held]];
+        let mut last = None;
+        let course = Course { order: &[0, 1], held: &holds, ..Course::default() };
+        forces_along(&assembly, &course, |placed| placed == 2, |structure| last.replace(structure).is_none()).unwrap();
+        let StructureForces { forces, hands, .. } = last.unwrap();
+        let (block, [x, y, z, a, b, c]) = hands[0];
+        assert_eq!((hands.len(), block), (1, held));
+        assert!((y - by_hand).abs() < 1e-9 && [x, z, a, b, c].iter().all(|none| none.abs() < 1e-9), "{hands:?}");
+        let mut found = [0.0; 2];
+        for force in forces.unwrap() {
+            found[assembly.contacts()[force.contact].bodies[0]] += force.normal;
+        }
+        assert!(found.iter().zip(pressed).all(|(found, pressed)| (found - pressed).abs() < 1e-9), "{found:?}");
+    }
 }
