@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 import drystone as ds
+from drystone.viewer.of_plan import plan_recording
 
 G = 9.81
 
@@ -285,3 +286,32 @@ def test_a_verdict_is_pickled_with_its_forces() -> None:
     assert again.forces == verdict.forces
     assert again.borders == verdict.borders
     assert str(again) == str(verdict)
+
+
+@pytest.mark.parametrize("name", ["column", "pyramid", "square pyramid"])
+def test_a_world_at_rest_shows_them_and_carries_its_own(name: str) -> None:
+    scene = SCENES[name]()
+    expected = {key: value for key, value in _named(scene).items() if abs(value) > 1e-9}
+    world, untold = ds.World(scene), ds.World(scene)
+    for _ in range(3):
+        world.step()
+        untold.step()
+        shown = _named(scene, world.forces)
+        _same(expected, {key: shown.get(key, 0.0) for key in expected})
+    assert world.snapshot() == untold.snapshot()
+    run = ds.simulate(scene, steps=2, forces=True)
+    told = np.array([f.force for f in world.forces])
+    assert run.forces[run.force_starts[1] :] == pytest.approx(told, abs=1e-9)
+
+
+def test_a_plan_page_shows_them_and_what_hands_bear() -> None:
+    plan = ds.plan(SCENES["pyramid"]())
+    forces = plan_recording(plan).forces
+    assert forces is not None
+    whole = np.asarray(forces.vectors)[: forces.offsets[1]]
+    of_check = [f.force for f in ds.check(plan.scene).forces if any(f.force)]
+    assert whole == pytest.approx(np.array(of_check), abs=1e-9)
+    held = ds.plan(ds.scenes.arch(7), hold=1)
+    captions = dict(plan_recording(held).captions)
+    step = next(step for step, names in enumerate(held.holds) if names)
+    assert f"The hand on {held.holds[step][0]} bears" in captions[step]
