@@ -56,6 +56,16 @@ const SMALL: usize = 1 << 12;
 impl Takedown {
     /// Solves (1) and (2) for all blocks.
     pub fn new(assembly: &Assembly) -> Self {
+        Self::unless(assembly, |_| false).expect("nothing ends it")
+    }
+
+    /// The same if all blocks of a sub-assembly bear; None as soon as one does not.
+    pub fn of_bearing(assembly: &Assembly, blocks: &BlockSet) -> Option<Self> {
+        Self::unless(assembly, |block| blocks.contains(block))
+    }
+
+    /// None as soon as a block does not bear of which `needed` says that it has to.
+    fn unless(assembly: &Assembly, needed: impl Fn(usize) -> bool) -> Option<Self> {
         let (blocks, contacts) = (assembly.blocks(), assembly.contacts());
         let upward = assembly.upward();
         let mut place = vec![0; blocks];
@@ -79,8 +89,11 @@ impl Takedown {
             let block = found.upward[k];
             poll(SMALL * (1 + on[block].len()));
             found.settle(assembly, block, &under[block], &on[block]);
+            if found.own[block].is_none() && needed(block) {
+                return None;
+            }
         }
-        found
+        Some(found)
     }
 
     /// Solves the problems of a block, those below it being solved.

@@ -11,7 +11,7 @@ use drystone_lcp::{Counts, Status};
 
 /// That it stands, if every block bears, proved by what shares nothing with the forces' computation.
 pub(super) fn check(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Option<Verdict> {
-    let forces = Takedown::new(assembly).forces(assembly, blocks)?;
+    let forces = Takedown::of_bearing(assembly, blocks)?.forces(assembly, blocks)?;
     let under = accelerations_under(assembly, blocks, &forces);
     if !moving(assembly, &under, &forces).is_empty() {
         return None;
