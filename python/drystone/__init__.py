@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     )
     from drystone.body import Body, Contact, Piece, Solid
     from drystone.contact_force import ContactForce, ContactForces
+    from drystone.limits import Limit, LimitEnd, limit
     from drystone.loads import Load
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
     from drystone.plan_answer import Blocked, Plan, TestRecord
@@ -45,6 +46,8 @@ __all__ = [
     "DrystoneError",
     "EngineError",
     "LcpError",
+    "Limit",
+    "LimitEnd",
     "Load",
     "ManyPlans",
     "Piece",
@@ -68,6 +71,7 @@ __all__ = [
     "contact",
     "imports",
     "lcp",
+    "limit",
     "meshes",
     "plan",
     "plan_many",
@@ -88,6 +92,8 @@ _HOMES = {
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
     "LcpError": "drystone._core",
+    "Limit": "drystone.limits",
+    "LimitEnd": "drystone.limits",
     "Load": "drystone.loads",
     "ManyPlans": "drystone.many",
     "Piece": "drystone.body",
@@ -108,6 +114,7 @@ _HOMES = {
     "World": "drystone.world",
     "__version__": "drystone._core",
     "check": "drystone.verdict",
+    "limit": "drystone.limits",
     "plan": "drystone.planning",
     "plan_many": "drystone.many",
     "simulate": "drystone.simulation",

@@ -21,6 +21,8 @@ __all__ = [
     "LcpSnapshot",
     "LcpSolution",
     "LcpSolver",
+    "Limit",
+    "LimitEnd",
     "Plan",
     "Recording",
     "Replay",
@@ -47,6 +49,7 @@ __all__ = [
     "forces_along",
     "generators",
     "lcp_solve",
+    "limit",
     "loads",
     "pair_frictions",
     "plan",
@@ -302,6 +305,27 @@ class Verdict:
     seconds: float
 
 @final
+class LimitEnd:
+    """`velocities` (moving bodies, 3 or 6) of the bodies `names`."""
+
+    factor: float
+    names: list[str]
+    velocities: NDArray[np.float64]
+    forces: ContactForces | None
+    imbalance: float
+    closing: float
+    bound: float
+
+@final
+class Limit:
+    status: str
+    lower: LimitEnd
+    upper: LimitEnd
+    pivots: int
+    iterations: int
+    seconds: float
+
+@final
 class TestRecord:
     size: int
     pivots: int
@@ -362,6 +386,12 @@ class Structure:
         """Whether the rest stands (None: borderline), seconds of all this, pivots."""
 
     def check(self) -> Verdict: ...
+    def limit(
+        self,
+        scene: Scene,
+        forces: Sequence[tuple[str, Sequence[float], Sequence[float]]],
+        gravity: Sequence[float] | None = None,
+    ) -> Limit: ...
     def pivots(self) -> int: ...
     def entries(self) -> int: ...
     def copy(self) -> Structure: ...
@@ -585,6 +615,17 @@ class LcpSolver:
 
 def catalogue() -> list[tuple[str, str, list[tuple[str, str, bool, float]]]]:
     """Built-in scenes: (name, summary, [(parameter, summary, whole number or not, default)])."""
+
+def limit(
+    scene: Scene,
+    forces: Sequence[tuple[str, Sequence[float], Sequence[float]]],
+    gravity: Sequence[float] | None = None,
+    blocks: Sequence[str] | None = None,
+    cones: tuple[int, str] | None = None,
+    round_cones: bool = False,
+) -> Limit:
+    """`forces`: body, force on its centroid, moment (three numbers, of which the plane uses the
+    last)."""
 
 def add_load(
     scene: Scene,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.cones import CONES, FACETS, core_cones
 from drystone.contact_force import CANONICAL, which_forces
+from drystone.limits import Limit, Push, core_push, limit_of
 from drystone.scene import Scene
 from drystone.verdict import Verdict
 
@@ -88,6 +89,22 @@ class Structure:
         """The verdict with all contact forces, or how it begins to fall; as `check` gives it."""
         kind = which_forces(forces)
         return Verdict._of(self._core.check(), copy.copy(self._scene), self._cones[1], kind)
+
+    def limit(self, push: Push | None = None, gravity: Sequence[float] | None = None) -> Limit:
+        """How much of a push the structure bears as it is now; `push` and `gravity` as in `limit`.
+
+        From the forces that hold it where few pivots do, else by the interior-point method. In
+        space with pyramids.
+
+        >>> import drystone as ds
+        >>> scene = ds.scenes.pyramid(3, friction=0.5)
+        >>> structure = ds.Structure(scene, blocks=["1", "2", "3", "4"])
+        >>> round(structure.limit(push={"4": (9.81, 0)}).factor, 6)
+        0.5
+        """
+        forces, pull = core_push(self._scene, push, gravity)
+        core = self._core.limit(self._scene._core, forces, pull)
+        return limit_of(core, copy.copy(self._scene), self.blocks, forces, pull)
 
     @property
     def pivots(self) -> int:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from drystone.text import shown
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
     from rich.table import Table
 
     from drystone.plan_answer import Plan
@@ -81,6 +83,17 @@ def _fall_table(verdict: Verdict, rows: int, more: str) -> Table:
     for name in verdict.falling[:rows]:
         made.add_row(shown(name), *(f"{value:.4g}" for value in verdict.acceleration(name)))
     return cut(made, len(verdict.falling), rows, more)
+
+
+def motion_table(motion: Mapping[str, NDArray[np.float64]], dimension: int) -> Table:
+    """How blocks move in a collapse."""
+    titles = ["x [m/s]", "y [m/s]", "turns [rad/s]"]
+    if dimension == 3:
+        titles = [f"{axis} [m/s]" for axis in "xyz"] + [f"turns {axis} [rad/s]" for axis in "xyz"]
+    made = table("collapses", *titles)
+    for name in list(motion)[:MOST_ROWS]:
+        made.add_row(shown(name), *(f"{value:.4g}" for value in motion[name]))
+    return cut(made, len(motion))
 
 
 def plan_table(plan: Plan, rows: int) -> Table:

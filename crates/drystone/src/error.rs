@@ -145,6 +145,12 @@ pub enum SceneError {
         /// The existing name closest to it, if any is close.
         nearest: Option<String>,
     },
+    /// A push on a body that cannot move.
+    #[error("\"{name}\" is fixed, or not among the blocks that are there: push one that can move")]
+    NotMovable {
+        /// The body.
+        name: String,
+    },
     /// Two loads with the same name.
     #[error("there is a load named \"{name}\" already: names of loads must differ")]
     DuplicateLoad {

@@ -75,17 +75,7 @@ pub(crate) fn power_of_fall(
     }
     for force in forces {
         let contact = &assembly.contacts()[force.contact];
-        let (mut relative, mut size) = ([0.0; 3], 0.0);
-        for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let Some(acceleration) = assembly.block_of(contact.bodies[side]).and_then(|block| of[block]) else {
-                continue;
-            };
-            let body = &assembly.bodies()[contact.bodies[side]];
-            let [x, y, z, turning @ ..] = *acceleration;
-            let turned = cross(body.in_world(turning), minus(contact.point, body.center));
-            (0..3).for_each(|k| relative[k] += sign * ([x, y, z][k] + turned[k]));
-            size += length([x, y, z]) + length(turned);
-        }
+        let (relative, size) = relative_motion(assembly, contact, &of);
         let closing = -opening(assembly, contact, relative, cone);
         if closing > CLOSING * fastest {
             return 0.0;
@@ -93,6 +83,40 @@ pub(crate) fn power_of_fall(
         bound += length(force.force) * (ROUNDING * size + closing.max(0.0));
     }
     if power > 0.0 { power / bound } else { 0.0 }
+}
+
+/// How fast a contact that has a force closes in a motion, of its fastest point; none that only opens.
+pub(crate) fn closing(
+    assembly: &Assembly,
+    motion: &[(usize, Components)],
+    forces: &[ContactForce],
+    cone: FrictionCone,
+) -> f64 {
+    let mut of = vec![None; assembly.blocks()];
+    motion.iter().for_each(|(block, velocity)| of[*block] = Some(velocity));
+    let fastest = motion.iter().fold(0.0_f64, |fastest, (block, v)| fastest.max(speed(assembly, *block, v)));
+    let closes = |force: &ContactForce| {
+        let contact = &assembly.contacts()[force.contact];
+        -opening(assembly, contact, relative_motion(assembly, contact, &of).0, cone)
+    };
+    let most = forces.iter().map(closes).fold(0.0, f64::max);
+    if most > 0.0 { most / fastest } else { 0.0 }
+}
+
+/// Motion of the second body of a contact relative to the first, at the point, and the sum of the sizes of its parts.
+fn relative_motion(assembly: &Assembly, contact: &Contact, of: &[Option<&Components>]) -> ([f64; 3], f64) {
+    let (mut relative, mut size) = ([0.0; 3], 0.0);
+    for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
+        let Some(velocity) = assembly.block_of(contact.bodies[side]).and_then(|block| of[block]) else {
+            continue;
+        };
+        let body = &assembly.bodies()[contact.bodies[side]];
+        let [x, y, z, turning @ ..] = *velocity;
+        let turned = cross(body.in_world(turning), minus(contact.point, body.center));
+        (0..3).for_each(|k| relative[k] += sign * ([x, y, z][k] + turned[k]));
+        size += length([x, y, z]) + length(turned);
+    }
+    (relative, size)
 }
 
 /// The least rate of a unit force within a contact's cone in a relative motion: negative where they sink into each other.

@@ -11,8 +11,9 @@ use crate::{
     crossover::from_interior,
     equilibrium::{OF_A_CHANGE, effort_of_interior_point},
     error::SceneError,
-    formulate::{Assemble, Assembly, BlockRows, BlockSet},
+    formulate::{Assemble, Assembly, BlockRows, BlockSet, Push},
     interrupt::or_else,
+    limit::{Limit, limit_from},
     scene::SceneOf,
 };
 use drystone_lcp::{
@@ -211,6 +212,16 @@ impl Structure {
         self.solver = self.assembly.equilibrium();
         (self.new, self.gone) = (self.blocks.iter().collect(), Vec::new());
         (self.history, self.fell) = (History::default(), false);
+    }
+
+    /// In which interval of t the structure can stand under t times a push beside its loads, from the basis that is there.
+    pub fn limit(&mut self, push: &Push) -> Limit {
+        or_else(self, |structure| structure.limit_of(push), Self::begin_anew)
+    }
+
+    fn limit_of(&mut self, push: &Push) -> Limit {
+        let found = self.ask(ConeSolver::solve);
+        limit_from(&self.assembly, &self.blocks, push, found, &self.solver)
     }
 
     fn judge(&mut self) -> Verdict {

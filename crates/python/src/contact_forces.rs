@@ -105,7 +105,7 @@ impl Forces {
 }
 
 impl ContactForces {
-    fn new<'a>(assembly: &Assembly, forces: impl Iterator<Item = &'a Force>) -> Self {
+    pub fn new<'a>(assembly: &Assembly, forces: impl Iterator<Item = &'a Force>) -> Self {
         let row = |force: &Force| {
             let contact = &assembly.contacts()[force.contact];
             Row {

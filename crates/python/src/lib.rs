@@ -9,6 +9,7 @@ mod forces;
 mod guard;
 mod lcp;
 mod lcp_solver;
+mod limit;
 mod loads;
 mod plan;
 mod recording;
@@ -33,6 +34,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<contact_forces::ContactForces>()?;
     module.add_class::<contact_forces::Forces>()?;
     module.add_class::<verdict::Verdict>()?;
+    module.add_class::<limit::Limit>()?;
+    module.add_class::<limit::LimitEnd>()?;
     module.add_class::<plan::TestRecord>()?;
     module.add_class::<plan::Plan>()?;
     module.add_class::<plan::Generators>()?;
@@ -48,6 +51,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<contact::ContactSolution>()?;
     module.add_class::<lcp_solver::LcpSnapshot>()?;
     module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
+    module.add_function(wrap_pyfunction!(limit::limit, module)?)?;
     module.add_function(wrap_pyfunction!(loads::add_load, module)?)?;
     module.add_function(wrap_pyfunction!(loads::add_pressure, module)?)?;
     module.add_function(wrap_pyfunction!(loads::set_friction, module)?)?;

@@ -3,6 +3,7 @@
 use crate::{
     errors::{no_answer, no_structure},
     guard::Guarded,
+    limit::{Forces, Limit, of_structure},
     scene::Scene,
     verdict::Verdict,
     watch::{briefly, interruptible},
@@ -78,6 +79,13 @@ impl Structure {
         let start = Instant::now();
         let verdict = interruptible(py, || core.check())?;
         Verdict::new(py, core.shared_assembly(), FrictionCone::Pyramid, verdict, start.elapsed())
+    }
+
+    /// How much of a push the structure can bear.
+    #[pyo3(signature = (scene, forces, gravity=None))]
+    fn limit(&self, py: Python<'_>, scene: &Scene, forces: Forces, gravity: Option<Vec<f64>>) -> PyResult<Limit> {
+        let mut guard = self.core.write()?;
+        of_structure(py, &mut guard, scene, &forces, gravity.as_deref())
     }
 
     fn pivots(&self) -> PyResult<usize> {

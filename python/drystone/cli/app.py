@@ -10,8 +10,11 @@ import typer
 from drystone.cli.errors import InputError
 from drystone.cli.options import (
     AsJson,
+    Block,
+    Blocks,
     Cone,
     ConeOfCheck,
+    ConeOfLimit,
     Engine,
     Facets,
     File,
@@ -53,13 +56,8 @@ def root(
 @app.command()
 def check(
     scene: File,
-    blocks: Annotated[
-        str | None, typer.Option(help="Only these blocks, names separated by commas.")
-    ] = None,
-    block: Annotated[
-        list[str] | None,
-        typer.Option(help="One of them, its name as it is; to be repeated."),
-    ] = None,
+    blocks: Blocks = None,
+    block: Block = None,
     as_json: AsJson = False,
     output: Picture = None,
     facets: Facets = 8,
@@ -72,6 +70,36 @@ def check(
     from drystone.cli import check as command
 
     return command.run(scene, blocks, block, as_json, output, facets, cone.value)
+
+
+@app.command()
+def limit(
+    scene: File,
+    push: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="BLOCK:FX,FY[,M]",
+            help="A force on a block, N, and a moment behind it, N m; to be repeated. "
+            "In space BLOCK:FX,FY,FZ[,MX,MY,MZ].",
+        ),
+    ] = None,
+    gravity: Annotated[
+        str | None, typer.Option(metavar="X,Y[,Z]", help="Added to gravity, m/s².")
+    ] = None,
+    blocks: Blocks = None,
+    block: Block = None,
+    as_json: AsJson = False,
+    output: Picture = None,
+    facets: Facets = 8,
+    cone: Annotated[
+        ConeOfLimit,
+        typer.Option(help="In space: Coulomb's round cones, or pyramids within or around."),
+    ] = ConeOfLimit.round,
+) -> int:
+    """How much of a push does it bear, and how does it collapse then?"""
+    from drystone.cli import limit as command
+
+    return command.run(scene, push, gravity, blocks, block, as_json, output, facets, cone.value)
 
 
 @app.command()

@@ -22,6 +22,12 @@ Picture = Annotated[
 ]
 
 
+Blocks = Annotated[str | None, typer.Option(help="Only these blocks, names separated by commas.")]
+Block = Annotated[
+    list[str] | None, typer.Option(help="One of them, its name as it is; to be repeated.")
+]
+
+
 class StabilityTest(str, Enum):
     """The stability tests of `plan`."""
 
@@ -50,6 +56,14 @@ class Formulation(str, Enum):
 class Cone(str, Enum):
     """Friction cones in space, within or around the round ones."""
 
+    inscribed = "inscribed"
+    circumscribed = "circumscribed"
+
+
+class ConeOfLimit(str, Enum):
+    """Those of `limit` and `margin`."""
+
+    round = "round"
     inscribed = "inscribed"
     circumscribed = "circumscribed"
 

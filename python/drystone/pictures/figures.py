@@ -16,6 +16,7 @@ from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.loads import draw_loads
+from drystone.pictures.moved import Moved
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.overlaps import draw_overlaps
 from drystone.pictures.shapes import (
@@ -64,8 +65,13 @@ def _longest(canvas: Canvas, blocks: Sequence[Body]) -> float:
 
 def verdict_figure(verdict: Verdict) -> Figure:
     """Contact forces to scale; blocks that fall in red, with where they go."""
+    return moved_figure(verdict, "m/s²")
+
+
+def moved_figure(verdict: Moved, unit: str) -> Figure:
+    """The same of whatever moves, in so many of a unit."""
     if verdict.scene.dimension == 3:
-        return in_space.verdict_figure(verdict)
+        return in_space.moved_figure(verdict, unit)
     bodies = verdict.scene.bodies
     present = set(verdict.names)
     falling = set(verdict.falling)
@@ -81,7 +87,7 @@ def verdict_figure(verdict: Verdict) -> Figure:
     _draw_forces(canvas, verdict, longest)
     draw_loads(canvas, verdict.scene, present, longest)
     if falling:
-        _draw_fall(canvas, verdict, blocks, longest)
+        _draw_fall(canvas, verdict, blocks, longest, unit)
     return canvas.figure
 
 
@@ -156,20 +162,24 @@ def _draw_ways_out(canvas: Canvas, plan: Plan) -> None:
     draw_directions(canvas, tails, ways, 0.55 * lengths, style.WAY)
 
 
-def _draw_forces(canvas: Canvas, verdict: Verdict, longest: float) -> None:
+def _draw_forces(canvas: Canvas, verdict: Moved, longest: float) -> None:
     """Each force once, as it acts on the body that is carried: against gravity."""
+    if verdict.forces is None:
+        return
     points, vectors = verdict.forces.points, verdict.forces.vectors
     down = vectors @ np.asarray(verdict.scene.gravity) > 0
     vectors = np.where(down[:, None], -vectors, vectors)
     draw_arrows(canvas, points, vectors, longest, "N", style.FORCE)
 
 
-def _draw_fall(canvas: Canvas, verdict: Verdict, blocks: Sequence[Body], longest: float) -> None:
+def _draw_fall(
+    canvas: Canvas, verdict: Moved, blocks: Sequence[Body], longest: float, unit: str
+) -> None:
     """Accelerations to scale, and dashed outlines of where the blocks are going."""
     falling = [body for body in blocks if body.name in verdict.falling]
     moves = np.array([verdict.acceleration(body.name) for body in falling])
     centers = np.array([body.center_of_mass for body in falling])
-    draw_arrows(canvas, centers, moves[:, :2], longest, "m/s²", style.FALL, key_at=0.5)
+    draw_arrows(canvas, centers, moves[:, :2], longest, unit, style.FALL, key_at=0.5)
     ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
     fastest = max(float(np.max(np.hypot(*ghost.T))) for ghost in ghosts)
     reach = GHOST_MOVE * typical_size(blocks) / fastest if fastest > 0 else 0.0

@@ -17,10 +17,11 @@ from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.axonometry import View
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.loads import draw_loads
+from drystone.pictures.moved import Moved
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_dashed, draw_solids
-from drystone.verdict import Verdict, counted
+from drystone.verdict import counted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -50,8 +51,8 @@ def scene_figure(scene: Scene) -> Figure:
     return canvas.figure
 
 
-def verdict_figure(verdict: Verdict) -> Figure:
-    """Contact forces to scale; blocks that fall in red, with where they go."""
+def moved_figure(verdict: Moved, unit: str) -> Figure:
+    """Contact forces to scale; blocks that move in red, with whereto, in so many of a unit."""
     drawing = _drawing(verdict.scene)
     falling = set(verdict.falling)
     headline, _, details = str(verdict).partition("; ")
@@ -61,11 +62,12 @@ def verdict_figure(verdict: Verdict) -> Figure:
     draw_solids(canvas, drawing, fills, dict.fromkeys(falling, style.FALL))
     present = [outline for outline in drawing.outlines if outline.name in fills]
     longest = min(0.12 * canvas.diagonal, 0.6 * typical_size(present))
-    points, vectors = verdict.forces.points, verdict.forces.vectors
-    draw_forces(canvas, drawing, points, vectors, verdict.scene.gravity, longest)
+    if verdict.forces is not None:
+        points, vectors = verdict.forces.points, verdict.forces.vectors
+        draw_forces(canvas, drawing, points, vectors, verdict.scene.gravity, longest)
     draw_loads(canvas, verdict.scene, fills, longest, drawing.view.flat)
     if falling:
-        _draw_fall(canvas, drawing, verdict, longest, typical_size(present))
+        _draw_fall(canvas, drawing, verdict, longest, typical_size(present), unit)
     return canvas.figure
 
 
@@ -124,14 +126,14 @@ def _unfinished_figure(plan: Plan, drawing: Drawing, headline: str, work: str) -
 
 
 def _draw_fall(
-    canvas: Canvas, drawing: Drawing, verdict: Verdict, longest: float, size: float
+    canvas: Canvas, drawing: Drawing, verdict: Moved, longest: float, size: float, unit: str
 ) -> None:
     """Accelerations to scale, and dashed outlines of where the blocks are going."""
     falling = [body for body in drawing.bodies if body.name in verdict.falling]
     moves = np.array([verdict.acceleration(body.name) for body in falling])
     origins = np.array([body.center_of_mass for body in falling])
     flat = drawing.view.flat
-    draw_arrows(canvas, flat(origins), flat(moves[:, :3]), longest, "m/s²", style.FALL, key_at=0.5)
+    draw_arrows(canvas, flat(origins), flat(moves[:, :3]), longest, unit, style.FALL, key_at=0.5)
     ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
     fastest = max(float(np.max(np.linalg.norm(ghost, axis=1))) for ghost in ghosts)
     reach = GHOST_MOVE * size / fastest if fastest > 0 else 0.0

@@ -8,6 +8,7 @@ use super::{
     cones::{Bound, Cones, STEEP, cone_edges},
     generator::{Generator, Wrench},
     part::{Assemble, Components, Part},
+    push::Push,
 };
 use crate::{
     contact::{Contact, ContactSet},
@@ -74,8 +75,6 @@ impl Assembly {
             let (weight, load) = ([x, y, z, 0.0, 0.0, 0.0], bodies[body].load);
             picked(std::array::from_fn(|k| weight[k] + load[k]))
         };
-        let unit = Some(length(gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
-        let burden = |&body: &usize| bodies[body].mass + bodies[body].load_size() / unit;
         let assembly = Self {
             gravity,
             cones,
@@ -87,11 +86,39 @@ impl Assembly {
             generators_on: vec![Vec::new(); movable.len()],
             inverse_mass: movable.iter().flat_map(|&body| picked(bodies[body].inverse_mass())).collect(),
             applied: movable.iter().flat_map(load).collect(),
-            heaviest: movable.iter().map(burden).fold(0.0, f64::max),
+            heaviest: 0.0,
             bodies,
             movable,
         };
-        Ok(assembly.spanned())
+        Ok(assembly.weighed().spanned())
+    }
+
+    /// The same with more loads: a wrench on each block, in its components.
+    pub(crate) fn with_loads(&self, more: impl Fn(usize) -> Components) -> Self {
+        let mut loaded = self.clone();
+        for (block, &body) in self.movable.iter().enumerate() {
+            let wrench = more(block);
+            (0..6).for_each(|k| loaded.bodies[body].load[k] += wrench[k]);
+            let own = &mut loaded.applied[self.components.len() * block..][..self.components.len()];
+            own.iter_mut().zip(self.components).for_each(|(sum, &k)| *sum += wrench[k]);
+        }
+        loaded.weighed()
+    }
+
+    /// The same with one push for all load.
+    pub(crate) fn only(&self, push: &Push, factor: f64) -> Self {
+        let mut alone = self.clone();
+        alone.gravity = [0.0; 3];
+        alone.bodies.iter_mut().for_each(|body| body.load = [0.0; 6]);
+        alone.applied.fill(0.0);
+        alone.pushed(push, factor)
+    }
+
+    fn weighed(mut self) -> Self {
+        let unit = self.weighing();
+        let burden = |&body: &usize| self.bodies[body].mass + self.bodies[body].load_size() / unit;
+        self.heaviest = self.movable.iter().map(burden).fold(0.0, f64::max);
+        self
     }
 
     /// Adds the generators of the contacts.

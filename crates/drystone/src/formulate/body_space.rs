@@ -1,6 +1,6 @@
 //! Gauss's principle for a sub-assembly, on bodies and contact points: what the interior-point method takes.
 
-use super::{Assembly, BlockSet, Components, ContactForce, answers::force_at};
+use super::{Assembly, BlockSet, Components, ContactForce, Push, answers::force_at};
 use crate::{
     contact::Contact,
     formulate::cones::tangents,
@@ -132,13 +132,29 @@ impl Assembly {
 }
 
 impl BodySpace<'_> {
+    /// The same under a push, whose factor is sought.
+    pub fn under(mut self, push: &Push) -> Self {
+        let size = self.problem.size;
+        self.problem.push = self.blocks.iter().flat_map(|&block| push.on(block, size)).copied().collect();
+        self
+    }
+
+    /// Forces under the largest factor of the push, and the motion in which more of it moves the blocks, in place of accelerations.
+    pub fn greatest(&self) -> Constrained {
+        self.constrained(self.problem.greatest_while(&mut || true).expect("nobody stops it"))
+    }
+
     pub fn solve(&self) -> Constrained {
         self.solve_while(&mut || true).expect("nobody stops it")
     }
 
     /// [`Self::solve`] as long as `go_on`, asked before every iteration, says so; None if stopped.
     pub fn solve_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Constrained> {
-        let found = self.problem.solve_while(go_on)?;
+        Some(self.constrained(self.problem.solve_while(go_on)?))
+    }
+
+    /// What the method has found in the terms of the assembly.
+    fn constrained(&self, found: Found) -> Constrained {
         let size = self.problem.size;
         let mut motion = Vec::with_capacity(self.blocks.len());
         for (place, &block) in self.blocks.iter().enumerate() {
@@ -148,7 +164,7 @@ impl BodySpace<'_> {
             motion.push((block, acceleration));
         }
         let forces = self.forces(&found.forces);
-        Some(Constrained { motion, forces, found })
+        Constrained { motion, forces, found }
     }
 
     /// The force at every point, from the unknowns of its cone.

@@ -21,6 +21,7 @@ mod hands;
 mod loads;
 mod motion;
 mod part;
+mod push;
 
 pub use answers::{Acceleration, ContactForce};
 pub use assembly::Assembly;
@@ -33,3 +34,4 @@ pub use cones::{Bound, Cones, FACETS};
 pub use generator::{Generator, Wrench};
 pub(crate) use motion::Moving;
 pub use part::{Assemble, Components, Part};
+pub use push::{Push, PushOf};

@@ -51,9 +51,7 @@ pub trait Assemble: Shape {
         let mut part = Self::unloaded(body);
         for load in body.loads() {
             let arm = Self::in_space(Self::turned(&body.pose, load.at));
-            let [x, y, z] = part.along_axes(load.moment);
-            let wrench = part.wrench_at(Self::in_space(load.force), arm);
-            let more = wrench.iter().zip([0.0, 0.0, 0.0, x, y, z]).map(|(at, beside)| at + beside);
+            let more = part.wrench_and_moment(Self::in_space(load.force), arm, load.moment);
             part.load.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
         }
         part
@@ -149,6 +147,14 @@ impl Part {
     fn wrench_at(&self, force: [f64; 3], arm: [f64; 3]) -> Components {
         let moment = self.along_axes(cross(arm, force));
         [force[0], force[1], force[2], moment[0], moment[1], moment[2]]
+    }
+
+    /// A force at a point seen from the centre of mass and a moment beside it, in world axes.
+    pub(crate) fn wrench_and_moment(&self, force: [f64; 3], arm: [f64; 3], moment: [f64; 3]) -> Components {
+        let [x, y, z] = self.along_axes(moment);
+        let beside = [0.0, 0.0, 0.0, x, y, z];
+        let at = self.wrench_at(force, arm);
+        std::array::from_fn(|k| at[k] + beside[k])
     }
 
     /// The size of the permanent loads, N: moments count by the force at the radius of gyration that gives them.

@@ -9,6 +9,7 @@
 mod bearing;
 mod checking;
 mod doubt;
+mod greatest;
 mod growing;
 mod keeping;
 mod leaving;
@@ -16,6 +17,7 @@ mod marks;
 mod phase_one;
 mod wear;
 
+pub use greatest::{Greatest, Load};
 pub use marks::Mark;
 
 use super::{

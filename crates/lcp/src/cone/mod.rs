@@ -22,4 +22,4 @@ mod sparse_vector;
 
 pub use answer::{Doubt, Membership};
 pub use columns::Columns;
-pub use membership::{ConeSolver, Mark};
+pub use membership::{ConeSolver, Greatest, Load, Mark};

@@ -15,6 +15,8 @@ pub struct Found {
     pub accelerations: Vec<f64>,
     /// Point after point: magnitudes along the edges, or the three components, N.
     pub forces: Vec<f64>,
+    /// Of the push; not a number without one.
+    pub factor: f64,
     /// Of each of these whether it bears rather than opens, `f > s` in the problem's own scale.
     pub bearing: Vec<bool>,
     /// Matrices factored.
@@ -39,6 +41,12 @@ pub enum End {
 /// Gap for each cone, in the problem's own scale. Accelerations differ from the right ones by its square root at most: so much
 /// where a contact neither bears nor opens, as between blocks that fall side by side.
 const GAP: f64 = 1e-24;
+/// The same where the factor of a push is to be greatest, which the gap of all cones together bounds.
+const GAP_OF_PUSH: f64 = 1e-18;
+/// And the residuals: forces balance the loads to some digits more than counts, whatever is between.
+const RESIDUAL_OF_PUSH: f64 = 1e-12;
+/// Forces and velocities to begin with under a push. From 1 a wall of 900 blocks takes 42 iterations, from 10 to 100 it takes 34.
+const START: f64 = 10.0;
 /// Residuals in the problem's own scale: rounding of some ten terms of the largest force, or of one.
 const RESIDUAL: f64 = 1e-14;
 /// What the forces may leave of a body's own load: a hundredth of what counts as rest.
@@ -79,6 +87,10 @@ pub(super) struct Interior<const B: usize, const D: usize, const N: usize> {
     massless: usize,
     /// What a unit of each force costs; with masses the offset.
     cost: Vec<f64>,
+    /// Factor of the push, in its own unit.
+    t: f64,
+    /// Power of the push in the motion: one where the factor is to be greatest, else none.
+    rate: f64,
 }
 
 /// A Newton step, and the vectors that it takes.
@@ -89,6 +101,10 @@ struct Step<const B: usize> {
     /// `J da`.
     moved: Vec<f64>,
     correction: Vec<f64>,
+    /// What the push alone does, `H^-1 push`, its `push' H^-1 push`, and the change of its factor.
+    pushed: Vec<[f64; B]>,
+    yielding: f64,
+    dt: f64,
     left: Vec<[f64; B]>,
     other: Vec<f64>,
     /// Bodies without mass, and what takes the place of it.
@@ -104,6 +120,8 @@ struct Residuals<const B: usize> {
     balance: Vec<[f64; B]>,
     /// `J a`, and the cost.
     motion: Vec<f64>,
+    /// What the power of the push lacks.
+    power: f64,
     worst: f64,
     gap: f64,
     /// The largest force.
@@ -119,7 +137,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
             cones -= 2;
         }
         let a = vec![[0.0; B]; problem.load.len()];
-        Self { a, s: f.clone(), f, cones, massless: 0, cost: problem.offset(), problem }
+        Self { a, s: f.clone(), f, cones, massless: 0, cost: problem.offset(), t: 0.0, rate: 0.0, problem }
     }
 
     /// The forces of least cost that hold the bodies, from some that do: (2) with `s = J a + cost` and no masses. Where
@@ -140,6 +158,16 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         self.massless > 0 && self.massless < self.a.len()
     }
 
+    /// Forces that hold the bodies under as much of the push as can be, and the motion in which more of it moves them: (2) with
+    /// `s = J a`, no masses, `- J' f - t push = F` and `push' a = push' push`, so that velocities are near one as loads are.
+    pub fn of_greatest_push(problem: Scaled<B, D, N>) -> Self {
+        let rate = product(&problem.push, &problem.push);
+        let massless = problem.load.len();
+        let mut made = Self { massless, rate, ..Self::new(problem) };
+        made.f.iter_mut().chain(&mut made.s).for_each(|start| *start *= START);
+        made
+    }
+
     /// None if stopped.
     pub fn solve(mut self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         let Some(mut matrix) = BodyMatrix::new(&self.problem) else {
@@ -156,15 +184,15 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
             if self.massless == 0 && iteration > 0 && self.at_rest(&residuals) {
                 return Some(self.found(End::AtRest, iteration, residuals.gap));
             }
-            if merit <= 1.0 {
+            if merit <= 1.0 || self.rate > 0.0 && residuals.gap <= GAP_OF_PUSH && residuals.worst <= RESIDUAL_OF_PUSH {
                 return Some(self.found(End::Converged, iteration, residuals.gap));
             }
             let (progress, patience, end) = match residuals.gap < LATE {
                 true => (LATE_PROGRESS, LATE_PATIENCE, End::Converged),
                 false => (PROGRESS, PATIENCE, End::Stalled),
             };
-            // Between layers bodies go far before the forces hold them, and the gap grows on the way.
-            let reached = if self.has_layers() { [residuals.worst, merit] } else { [merit; 2] };
+            // Between layers and under a push bodies go far before the forces hold them, and the gap grows on the way.
+            let reached = if self.has_layers() || self.rate > 0.0 { [residuals.worst, merit] } else { [merit; 2] };
             let better = (0..2).any(|k| reached[k] < progress * best[k]);
             since = if better { 0 } else { since + 1 };
             best = [0, 1].map(|k| reached[k].min(best[k]));
@@ -233,6 +261,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         });
         let Some(more) = matrix.factor() else { return false };
         way.more = more;
+        way.push(problem, matrix);
         way.correction.fill(0.0);
         way.newton(problem, matrix, &scaling, residuals, &self.s, 0);
         let length = step(problem, &self.f, &way.df).min(step(problem, &self.s, &way.ds));
@@ -251,6 +280,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         let [of_forces, of_motion] = lengths;
         self.a.iter_mut().flatten().zip(way.da.iter().flatten()).for_each(|(a, da)| *a += of_motion * da);
         self.f.iter_mut().zip(&way.df).for_each(|(f, df)| *f += of_forces * df);
+        self.t += of_forces * way.dt;
         self.s.iter_mut().zip(&way.ds).for_each(|(s, ds)| *s += of_motion * ds);
         true
     }
@@ -267,14 +297,16 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         };
         let mut balance: Vec<[f64; B]> = self.a.iter().zip(&self.problem.load).enumerate().map(less).collect();
         self.problem.add_wrenches(&self.f, -1.0, &mut balance);
+        add(&mut balance, -self.t, &self.problem.push);
         let mut motion = vec![0.0; self.s.len()];
         self.problem.motion(&self.a, &mut motion);
         motion.iter_mut().zip(&self.cost).for_each(|(motion, cost)| *motion += cost);
         let apart = motion.iter().zip(&self.s).fold(0.0_f64, |worst, (motion, s)| worst.max((motion - s).abs()));
-        let worst = largest(&balance).max(apart);
+        let power = if self.problem.push.is_empty() { 0.0 } else { self.rate - product(&self.problem.push, &self.a) };
+        let worst = largest(&balance).max(apart).max(power.abs());
         let gap = self.f.iter().zip(&self.s).map(|(f, s)| f * s).sum::<f64>() / self.cones.max(1) as f64;
         let force = self.f.iter().fold(0.0_f64, |largest, f| largest.max(f.abs()));
-        Residuals { balance, motion, worst, gap, force }
+        Residuals { balance, motion, power, worst, gap, force }
     }
 
     /// Whether what the forces leave of each body's load, `M a` and the residual, is none.
@@ -289,7 +321,8 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
     fn found(self, end: End, iterations: usize, gap: f64) -> Found {
         let (accelerations, forces) = (self.problem.accelerations(&self.a), self.problem.in_newtons(&self.f));
         let bearing = self.f.iter().zip(&self.s).map(|(f, s)| f > s).collect();
-        Found { end, accelerations, forces, bearing, iterations, gap }
+        let factor = self.t / self.problem.push_unit;
+        Found { end, accelerations, forces, factor, bearing, iterations, gap }
     }
 }
 
@@ -305,12 +338,51 @@ impl<const B: usize> Step<B> {
         let (rows, columns) = (|| vec![[0.0; B]; bodies], || vec![0.0; forces]);
         let (da, left) = (rows(), rows());
         let (df, ds, moved, correction, other) = (columns(), columns(), columns(), columns(), columns());
-        Self { da, df, ds, moved, correction, left, other, massless: 0, proximal_mass: 0.0, more: 0.0 }
+        let (pushed, yielding, dt, massless) = (Vec::new(), 0.0, 0.0, 0);
+        Self {
+            da,
+            df,
+            ds,
+            moved,
+            correction,
+            pushed,
+            yielding,
+            dt,
+            left,
+            other,
+            massless,
+            proximal_mass: 0.0,
+            more: 0.0,
+        }
     }
 
     /// Weight of a body's motion itself in the matrix: its mass, or a proximal term in its place.
     fn diagonal(&self, body: usize) -> f64 {
         if body < self.massless { self.proximal_mass } else { 1.0 }
+    }
+
+    /// What the push does by itself, for the matrix that was factored.
+    fn push<const D: usize, const N: usize>(&mut self, problem: &Scaled<B, D, N>, matrix: &mut BodyMatrix<B>) {
+        self.pushed.clone_from(&problem.push);
+        if !self.pushed.is_empty() {
+            matrix.solve(&mut self.pushed);
+            self.yielding = product(&problem.push, &self.pushed);
+        }
+    }
+
+    /// Gives a motion the power that it lacks by more or less of the push, and says how much.
+    fn by_push<const D: usize, const N: usize>(
+        &self,
+        problem: &Scaled<B, D, N>,
+        motion: &mut [[f64; B]],
+        power: f64,
+    ) -> f64 {
+        if self.pushed.is_empty() {
+            return 0.0;
+        }
+        let change = (power - product(&problem.push, motion)) / self.yielding;
+        add(motion, change, &self.pushed);
+        change
     }
 
     /// The Newton step of (2) for the product that `self.correction` asks for.
@@ -331,6 +403,9 @@ impl<const B: usize> Step<B> {
         self.da.iter_mut().zip(&residuals.balance).for_each(|(da, balance)| *da = balance.map(|balance| -balance));
         problem.add_wrenches(&self.df, 1.0, &mut self.da);
         matrix.solve(&mut self.da);
+        let mut da = std::mem::take(&mut self.da);
+        self.dt = self.by_push(problem, &mut da, residuals.power);
+        self.da = da;
         problem.motion(&self.da, &mut self.moved);
         self.give_way(problem, scaling, false);
         let scale = self.df.iter().fold(1.0_f64, |largest, df| largest.max(df.abs()));
@@ -341,10 +416,18 @@ impl<const B: usize> Step<B> {
                 self.left[body] = std::array::from_fn(|k| -balance[k] - weight * da[k]);
             }
             problem.add_wrenches(&self.df, 1.0, &mut self.left);
-            if largest(&self.left) <= REFINED * scale {
+            add(&mut self.left, self.dt, &problem.push);
+            let lacking = match self.pushed.is_empty() {
+                true => 0.0,
+                false => residuals.power - product(&problem.push, &self.da),
+            };
+            if largest(&self.left).max(lacking.abs()) <= REFINED * scale {
                 break;
             }
             matrix.solve(&mut self.left);
+            let mut left = std::mem::take(&mut self.left);
+            self.dt += self.by_push(problem, &mut left, lacking);
+            self.left = left;
             problem.motion(&self.left, &mut self.other);
             self.da.iter_mut().flatten().zip(self.left.iter().flatten()).for_each(|(da, more)| *da += more);
             self.moved.iter_mut().zip(&self.other).for_each(|(moved, more)| *moved += more);
@@ -369,4 +452,13 @@ impl<const B: usize> Step<B> {
         scaling.divide(problem, &mut self.other);
         self.df.iter_mut().zip(&self.other).for_each(|(df, moved)| *df -= moved);
     }
+}
+
+/// Adds a multiple of some rows; nothing if there are none.
+fn add<const B: usize>(sum: &mut [[f64; B]], factor: f64, more: &[[f64; B]]) {
+    sum.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(sum, more)| *sum += factor * more);
+}
+
+fn product<const B: usize>(a: &[[f64; B]], b: &[[f64; B]]) -> f64 {
+    a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| a * b).sum()
 }

@@ -9,6 +9,8 @@ pub struct Gauss {
     pub inverse_mass: Vec<f64>,
     /// `F`, body after body: N, N m.
     pub load: Vec<f64>,
+    /// A load that acts times a factor t, beside [`Self::load`]: N, N m; none if empty. See [`Gauss::greatest`].
+    pub push: Vec<f64>,
     /// Where bodies touch.
     pub points: Vec<Point>,
     /// By how much each unknown of the cones may be negative, point after point, in the unit of J a; nowhere if empty: (1) is

@@ -10,6 +10,10 @@ use super::{
 pub(super) struct Scaled<const B: usize, const D: usize, const N: usize> {
     /// `M^-1/2 F / unit`.
     pub load: Vec<[f64; B]>,
+    /// `M^-1/2` times [`Gauss::push`], its largest entry one; may be empty.
+    pub push: Vec<[f64; B]>,
+    /// What a factor of one in the caller's unit is in that of `push`.
+    pub push_unit: f64,
     pub points: Vec<ScaledPoint<B, D, N>>,
     /// Whether a cone is round.
     pub any_round: bool,
@@ -93,6 +97,10 @@ impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
         let unit = largest(&load);
         let unit = if unit > 0.0 { unit } else { 1.0 };
         load.iter_mut().flatten().for_each(|load| *load /= unit);
+        let mut push: Vec<[f64; B]> = problem.push.chunks_exact(B).zip(&root).map(of).collect();
+        let strongest = largest(&push);
+        push.iter_mut().flatten().for_each(|push| *push /= strongest);
+        let push_unit = strongest / unit;
         let (mut edges, mut lengths) = (Vec::new(), Vec::new());
         let mut points = Vec::with_capacity(problem.points.len());
         for (index, point) in problem.points.iter().enumerate() {
@@ -113,7 +121,7 @@ impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
         }
         let offset = problem.offset.iter().zip(&lengths).map(|(offset, length)| offset / length / unit).collect();
         let any_round = points.iter().any(|point| point.round);
-        Self { load, points, any_round, edges, lengths, offset, unit, root }
+        Self { load, push, push_unit, points, any_round, edges, lengths, offset, unit, root }
     }
 
     /// Number of unknown forces.

@@ -7,8 +7,17 @@ use super::{
     scaled::Scaled,
 };
 
+/// What is asked of a problem.
+enum Question<'a> {
+    /// (1).
+    Motion,
+    /// Forces of these costs, from some that hold the bodies.
+    LeastCost(&'a [f64], Vec<f64>),
+    GreatestPush,
+}
+
 impl Gauss {
-    /// Solves it from nothing.
+    /// Solves it from nothing; with a push for the factor under which it is nearest to rest.
     ///
     /// # Panics
     /// If bodies have neither 3 nor 6 unknowns.
@@ -21,7 +30,16 @@ impl Gauss {
     /// # Panics
     /// If bodies have neither 3 nor 6 unknowns.
     pub fn solve_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
-        self.by_size(None, go_on)
+        self.by_size(Question::Motion, go_on)
+    }
+
+    /// Forces that hold the bodies under the largest factor of the push, and the motion in which more of it moves them. Does not
+    /// converge where there are no such forces, or no largest factor; the caller judges the answer. None if stopped.
+    ///
+    /// # Panics
+    /// If bodies have neither 3 nor 6 unknowns.
+    pub fn greatest_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
+        self.by_size(Question::GreatestPush, go_on)
     }
 
     /// A basis of the forces that hold the bodies, from such forces, all of them positive: those that are positive where a
@@ -39,7 +57,7 @@ impl Gauss {
                 cost.push(factor * (1.0 + (cost.len() as f64 * GOLDEN).fract()));
             }
         }
-        let found = self.by_size(Some((forces, cost)), &mut || true)?;
+        let found = self.by_size(Question::LeastCost(forces, cost), &mut || true)?;
         let bearing = || (0..found.bearing.len()).filter(|&j| found.bearing[j]).collect();
         (found.gap <= TOLD_APART).then(bearing)
     }
@@ -60,24 +78,24 @@ impl Gauss {
         found.expect("nobody stops it")
     }
 
-    /// Solves it, or looks for the forces of least cost from some that hold the bodies.
-    fn by_size(&self, dear: Option<(&[f64], Vec<f64>)>, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
+    fn by_size(&self, question: Question<'_>, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         match self.size {
-            3 => self.run::<3, 2>(dear, go_on),
-            6 => self.run::<6, 3>(dear, go_on),
+            3 => self.run::<3, 2>(question, go_on),
+            6 => self.run::<6, 3>(question, go_on),
             size => panic!("a body has 3 or 6 unknowns, not {size}"),
         }
     }
 
     fn run<const B: usize, const D: usize>(
         &self,
-        dear: Option<(&[f64], Vec<f64>)>,
+        question: Question<'_>,
         go_on: &mut dyn FnMut() -> bool,
     ) -> Option<Found> {
         let scaled = Scaled::<B, D, 2>::new(self);
-        match dear {
-            None => Interior::new(scaled),
-            Some((forces, cost)) => Interior::of_least_cost(scaled, forces, cost),
+        match question {
+            Question::Motion => Interior::new(scaled),
+            Question::LeastCost(forces, cost) => Interior::of_least_cost(scaled, forces, cost),
+            Question::GreatestPush => Interior::of_greatest_push(scaled),
         }
         .solve(go_on)
     }

@@ -2,7 +2,7 @@
 
 use drystone_lcp::{
     Dantzig, Method, Problem, Settings, Status,
-    cone::{Columns, ConeSolver, Membership},
+    cone::{Columns, ConeSolver, Greatest, Membership},
     interior::{Cone, End, Gauss, Layers, Point},
 };
 use rand::{Rng, SeedableRng};
@@ -133,6 +133,7 @@ fn an_offset_lets_contacts_close_so_fast() {
         load: vec![0.0, -20.0, 0.0],
         points: vec![point],
         offset: vec![3.0],
+        ..Gauss::default()
     };
     let found = problem.solve();
     assert!((found.accelerations[1] + 3.0).abs() < 1e-10, "{found:?}");
@@ -296,4 +297,37 @@ fn what_layers_bear_does_not_change_with_points_that_add_no_wrench() {
             assert!((before - after).abs() < 1e-9 * largest, "seed {seed}: {before} {after}");
         }
     }
+}
+
+/// `max t` with `G f + F + t F1 = 0`: pivots and the interior-point method find the same, and the motion of either proves it.
+#[test]
+fn the_greatest_factor_of_a_push_is_that_of_the_simplex_method() {
+    let (mut limited, mut unlimited) = (0, 0);
+    for seed in 0..120 {
+        let mut problem = random(seed, 3, 4, 14, None);
+        let (starts, rows, values) = generators(&problem);
+        let columns = Columns::new(problem.load.len(), &starts, &rows, &values).unwrap();
+        let h: Vec<f64> = problem.load.iter().map(|load| -load).collect();
+        let mut solver = ConeSolver::new(columns, &h, &vec![1.0; h.len()]).unwrap();
+        solver.add_rows(&(0..h.len()).collect::<Vec<_>>());
+        let push: Vec<(usize, f64)> = (0..h.len()).map(|row| (row, ((row * 7 + 3) % 5) as f64 - 2.0)).collect();
+        let load = solver.add_load(&push).unwrap();
+        if solver.solve() != Membership::Inside {
+            continue;
+        }
+        let Greatest::Limited(factor) = solver.greatest(load) else {
+            unlimited += 1;
+            continue;
+        };
+        limited += 1;
+        problem.push = push.iter().map(|entry| entry.1).collect();
+        let found = problem.greatest_while(&mut || true).unwrap();
+        assert!((found.factor - factor).abs() <= 1e-8 * factor.abs().max(1.0), "{seed}: {} {factor}", found.factor);
+        // The certificate of the pivots: y' G <= 0, y' (h - t d) = 0, y' d < 0.
+        let y = solver.certificate();
+        let along = |of: &dyn Fn(usize) -> f64| -> f64 { y.iter().map(|(row, y)| y * of(*row)).sum() };
+        let (by_loads, by_push) = (along(&|row| h[row]), along(&|row| push[row].1));
+        assert!(by_push < 0.0 && (by_loads - factor * by_push).abs() <= 1e-9 * by_push.abs() * factor.abs().max(1.0));
+    }
+    assert!(limited > 15 && unlimited > 0, "{limited} {unlimited}");
 }

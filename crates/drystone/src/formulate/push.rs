@@ -1,0 +1,93 @@
+//! The load that is added: forces and moments on blocks, or an acceleration of all.
+
+use super::{Assemble, Assembly, BlockSet};
+use crate::{bounds::PUSH, error::SceneError, load::check_gravity, scene::SceneOf};
+
+/// `F1`: a wrench on each movable block, block after block, as [`Assembly::applied`] has them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Push {
+    wrenches: Vec<f64>,
+}
+
+/// What a push is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PushOf<V> {
+    /// Block, force on its centroid (N, world axes) and moment beside it (N m, about the axes of the world; in the plane the last).
+    pub forces: Vec<(String, V, [f64; 3])>,
+    /// Added to gravity, m/s^2.
+    pub gravity: Option<V>,
+}
+
+impl Push {
+    /// A push on the blocks of a scene whose assembly this is, of which only those in the set are there.
+    ///
+    /// # Errors
+    /// [`SceneError`] for an unknown block, one that is fixed or not there, and numbers out of bounds.
+    pub fn new<S: Assemble>(
+        assembly: &Assembly,
+        scene: &SceneOf<S>,
+        blocks: &BlockSet,
+        of: &PushOf<S::Vector>,
+    ) -> Result<Self, SceneError> {
+        let size = assembly.components().len();
+        let mut wrenches = vec![0.0; size * assembly.blocks()];
+        let mut add = |block: usize, wrench: [f64; 6]| {
+            let own = &mut wrenches[size * block..][..size];
+            own.iter_mut().zip(assembly.components()).for_each(|(sum, &k)| *sum += wrench[k]);
+        };
+        if let Some(gravity) = of.gravity {
+            check_gravity(&gravity)?;
+            let [x, y, z] = S::in_space(gravity);
+            for block in blocks.iter() {
+                let mass = assembly.body(block).mass;
+                add(block, [mass * x, mass * y, mass * z, 0.0, 0.0, 0.0]);
+            }
+        }
+        for (name, force, moment) in &of.forces {
+            let index = scene.index_of(name)?;
+            let block = assembly.block_of(index).filter(|&block| blocks.contains(block));
+            let block = block.ok_or_else(|| SceneError::NotMovable { name: name.clone() })?;
+            for (axis, &value) in force.as_ref().iter().chain(moment).enumerate() {
+                PUSH.check(format_args!("the push on \"{name}\": entry {axis}"), value)?;
+            }
+            let body = &scene.bodies()[index];
+            let arm = S::in_space(S::turned(&body.pose, body.shape.centroid()));
+            add(block, assembly.body(block).wrench_and_moment(S::in_space(*force), arm, *moment));
+        }
+        Ok(Self { wrenches })
+    }
+
+    /// All wrenches.
+    pub fn wrenches(&self) -> &[f64] {
+        &self.wrenches
+    }
+
+    /// The wrench on a block.
+    pub fn on(&self, block: usize, size: usize) -> &[f64] {
+        &self.wrenches[size * block..size * (block + 1)]
+    }
+
+    /// Whether it does not push at all.
+    pub fn is_none(&self) -> bool {
+        self.wrenches.iter().all(|&entry| entry == 0.0)
+    }
+
+    /// The push the other way.
+    pub fn reversed(&self) -> Self {
+        Self { wrenches: self.wrenches.iter().map(|entry| -entry).collect() }
+    }
+}
+
+impl Assembly {
+    /// The same under so much of a push more.
+    pub(crate) fn pushed(&self, push: &Push, factor: f64) -> Self {
+        let size = self.components().len();
+        let wrench = |block: usize| {
+            let mut wrench = [0.0; 6];
+            let own = push.on(block, size).iter().zip(self.components());
+            own.for_each(|(entry, &k)| wrench[k] = factor * entry);
+            wrench
+        };
+        self.with_loads(wrench)
+    }
+}

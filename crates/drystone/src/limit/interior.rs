@@ -1,0 +1,108 @@
+//! By the interior-point method: many blocks, or round cones.
+
+use super::{
+    ends::{End, Limit},
+    walk,
+};
+use crate::{
+    check::check_blocks_while,
+    crossover::from_interior,
+    equilibrium::equilibrium_of,
+    formulate::{Assembly, BlockSet, Constrained, FrictionCone, Push},
+    judgement::{CLOSING, MARGIN},
+    proof::{moving, power_of_fall},
+};
+use drystone_lcp::{Counts, Status, cone::Membership};
+
+/// The factors of the forces and of the motion may differ by this, beside one or themselves: a hundredth of 1e-7, to which other
+/// programs agree with one another.
+const APART: f64 = 1e-9;
+/// What the forces may leave, as in a verdict.
+const IMBALANCE: f64 = 1e-9;
+
+pub(super) fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Limit {
+    let mut iterations = 0;
+    let mut ends = [1.0, -1.0].map(|sign| end(assembly, blocks, push, cone, sign, &mut iterations));
+    if let [Ok(upper), Ok(lower)] = &ends {
+        let (upper, lower) = (upper.clone(), lower.clone());
+        return Limit { status: Status::Solved, lower, upper, counts: Counts::default(), iterations };
+    }
+    if ends.iter().all(Result::is_err)
+        && let Some(never) = never(assembly, blocks, push, cone, &mut iterations)
+    {
+        return never;
+    }
+    for (end, sign) in ends.iter_mut().zip([1.0, -1.0]) {
+        if end.is_err() && bears(assembly, blocks, push, cone, sign) {
+            *end = Ok(End::unlimited(sign));
+        }
+    }
+    let status = if ends.iter().all(Result::is_ok) { Status::Solved } else { Status::NumericalTrouble };
+    if status != Status::Solved && !assembly.is_round(cone) {
+        // Pivots, however long they take, have more digits.
+        let (found, mut solver) = from_interior(assembly, blocks);
+        solver.limit_effort(usize::MAX);
+        if let Some(walked) = walk::to_the_end(assembly, blocks, push, found, &solver) {
+            return Limit { iterations, ..walked };
+        }
+    }
+    let [upper, lower] = ends.map(|end| end.unwrap_or_else(|end| end));
+    Limit { status, lower, upper, counts: Counts::default(), iterations }
+}
+
+/// An end, or the one that was found though its residuals are too large.
+fn end(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    push: &Push,
+    cone: FrictionCone,
+    sign: f64,
+    iterations: &mut usize,
+) -> Result<End, End> {
+    if push.is_none() {
+        return Err(End::unlimited(sign));
+    }
+    let signed = if sign < 0.0 { push.reversed() } else { push.clone() };
+    let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).under(&signed).greatest();
+    *iterations += found.iterations;
+    let finite = found.factor.is_finite() && motion.iter().flat_map(|(_, v)| v).all(|v| v.is_finite());
+    if !finite {
+        return Err(End::unknown());
+    }
+    let end = End::new(assembly, blocks, push, cone, sign * found.factor, motion, forces);
+    let apart = (end.bound - end.factor).abs() <= APART * end.factor.abs().max(1.0);
+    if apart && end.imbalance <= IMBALANCE && end.closing <= CLOSING { Ok(end) } else { Err(end) }
+}
+
+/// Whether contacts bear the push however large: blocks without weight stand under it.
+fn bears(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone, sign: f64) -> bool {
+    let alone = assembly.only(push, sign);
+    let by_pyramids = equilibrium_of(&alone, blocks).0 == Membership::Inside;
+    by_pyramids
+        || assembly.is_round(cone) && {
+            let verdict = check_blocks_while(&alone, blocks, cone, &mut |_| true).expect("nobody stops it");
+            verdict.stable
+        }
+}
+
+/// How it falls whatever the factor, if it does: Gauss's principle with the factor free. A motion in which the push does no work,
+/// and the loads do.
+fn never(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    push: &Push,
+    cone: FrictionCone,
+    iterations: &mut usize,
+) -> Option<Limit> {
+    let space = assembly.body_space(blocks, cone);
+    let Constrained { motion, forces, found } = if push.is_none() { space.solve() } else { space.under(push).solve() };
+    *iterations += found.iterations;
+    let falling = moving(assembly, &motion, &forces);
+    let falls = !falling.is_empty() && power_of_fall(assembly, &motion, &forces, cone) > MARGIN;
+    falls.then(|| {
+        let end = End::new(assembly, blocks, push, cone, f64::NAN, falling, Vec::new());
+        let end = End { imbalance: f64::NAN, bound: f64::NAN, ..end };
+        let counts = Counts::default();
+        Limit { status: Status::NoSolution, lower: end.clone(), upper: end, counts, iterations: *iterations }
+    })
+}

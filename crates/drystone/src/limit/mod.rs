@@ -1,0 +1,59 @@
+//! How much more load: the interval of t in which a structure can stand under `F + t F1`.
+//!
+//! ```text
+//! t_high = max t   with   G f + F + t F1 = 0,   f in K                                (1)
+//!        = min -v' F   with   v opens contacts or keeps them closed,   v' F1 = 1       (2)
+//! ```
+//!
+//! and `t_low` the same with `-F1`. (1) is the static theorem of limit analysis, (2) the kinematic one: the collapse motion v in
+//! which the loads do no more work than they must. With friction both are those of the associated flow rule, in which what
+//! slides also opens; see docs/theory/limit-loads.md.
+
+mod ends;
+mod interior;
+mod walk;
+
+pub use ends::{End, Limit};
+
+use crate::{
+    equilibrium::{Effort, equilibrium_while},
+    error::SceneError,
+    formulate::{Assembly, BlockSet, FrictionCone, Push},
+};
+use drystone_lcp::cone::{ConeSolver, Membership};
+
+/// The interval for a sub-assembly of these blocks; a push acts on them only.
+pub fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Limit {
+    if assembly.is_round(cone) {
+        return interior::limit(assembly, blocks, push, cone);
+    }
+    let found = equilibrium_while(assembly, blocks, Effort::OfInteriorPoint, &mut |_| true);
+    let (found, solver) = found.expect("nobody stops it");
+    limit_from(assembly, blocks, push, found, &solver)
+}
+
+/// [`limit`] with pyramids, from what an equilibrium solver with these blocks has found.
+pub(crate) fn limit_from(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    push: &Push,
+    found: Membership,
+    solver: &ConeSolver,
+) -> Limit {
+    let walked = match found {
+        Membership::PivotLimit => None,
+        _ => walk::limit(assembly, blocks, push, found, solver),
+    };
+    walked.unwrap_or_else(|| interior::limit(assembly, blocks, push, FrictionCone::Pyramid))
+}
+
+/// The blocks with these names, or all.
+///
+/// # Errors
+/// [`SceneError::UnknownName`].
+pub fn blocks_named(assembly: &Assembly, names: Option<&[String]>) -> Result<BlockSet, SceneError> {
+    let Some(names) = names else { return Ok(BlockSet::full(assembly.blocks())) };
+    let mut set = BlockSet::empty(assembly.blocks());
+    assembly.named(names)?.into_iter().for_each(|block| set.insert(block));
+    Ok(set)
+}

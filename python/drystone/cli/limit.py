@@ -1,0 +1,79 @@
+"""`drystone limit`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from drystone.cli.errors import InputError
+from drystone.cli.inputs import listed, load_scene, picture_path, reporting_files
+from drystone.cli.output import console
+from drystone.json_text import write_json
+from drystone.limits import Limit, limit
+from drystone.tables import motion_table
+from drystone.text import shown
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+
+def run(
+    scene_name: str,
+    push: Sequence[str] | None,
+    gravity: str | None,
+    blocks: str | None,
+    block: Sequence[str] | None,
+    as_json: bool,
+    output: Path | None,
+    facets: int,
+    cone: str,
+) -> int:
+    """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
+    picture = picture_path(output)
+    scene = load_scene(scene_name)
+    names = None if blocks is None and not block else [*listed(blocks), *(block or ())]
+    found = limit(
+        scene,
+        None if not push else dict(_push(text) for text in push),
+        None if gravity is None else numbers(gravity, "--gravity"),
+        names,
+        facets=facets,
+        cone=cone,
+    )
+    if picture is not None:
+        with reporting_files():
+            found.draw(picture)
+    if as_json:
+        write_json(found.to_dict(), sys.stdout)
+    else:
+        _print(console(), found, picture)
+    if found.status not in ("solved", "no_solution"):
+        raise InputError(f"{scene_name}: no answer ({found.status})")
+    return 0 if found.status == "solved" else 1
+
+
+def _push(text: str) -> tuple[str, tuple[float, ...]]:
+    name, colon, force = text.rpartition(":")
+    if not colon:
+        raise InputError(f"--push {text}: give a block and a force, as 7:100,0")
+    return name, numbers(force, f"--push {text}")
+
+
+def numbers(text: str, what: str) -> tuple[float, ...]:
+    """Numbers separated by commas."""
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError(f"{what}: {text!r} is no list of numbers, as 9.81,0") from None
+
+
+def _print(out: Console, found: Limit, picture: Path | None) -> None:
+    solved = found.status == "solved"
+    colour = "green" if solved else "red" if found.status == "no_solution" else "yellow"
+    out.print(str(found), style=f"bold {colour}")
+    if found.mechanism:
+        out.print(motion_table(found.mechanism, found.scene.dimension))
+    if picture is not None:
+        out.print(f"picture: {shown(str(picture))}", soft_wrap=True)

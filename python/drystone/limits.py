@@ -1,0 +1,265 @@
+"""How much more load a structure bears, and how it collapses there."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from drystone import _core
+from drystone.cones import CONES, FACETS, ROUND, core_cones
+from drystone.contact_force import ANY, ContactForces
+from drystone.loads import vector
+from drystone.scene import Scene
+from drystone.verdict import counted, shorten
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+Push = Mapping[str, Sequence[float]]
+"""Body and the force on its centroid, N, world axes: two numbers in the plane, three in space;
+behind them, if given, the moment beside it, N m: one number, in space three."""
+
+CoreForces = list[tuple[str, tuple[float, ...], tuple[float, float, float]]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class LimitEnd:
+    """An end of the interval of load factors, with what proves it."""
+
+    factor: float
+    """The load factor; plus or minus infinity if nothing limits it."""
+    mechanism: dict[str, NDArray[np.float64]]
+    """Velocity of every block that moves in the collapse: (3,), x and y in m/s and the turn in
+    rad/s, counter-clockwise; in space (6,). The largest of any speed of a centre of mass, and of
+    any turn times the distance to the block's furthest corner, is 1 m/s; blocks at rest are left
+    out. Contacts open in it or stay closed; one that slides opens too, by the angle of friction
+    (the associated flow rule, see `limit`)."""
+    forces: ContactForces | None
+    """Contact forces that hold the structure there; None without a limit."""
+    imbalance: float
+    """The most that these forces leave of a block's load, as a share of that load or of the largest
+    force on it."""
+    closing: float
+    """How fast a contact closes in the mechanism, as a share of its fastest point: rounding."""
+    bound: float
+    """The factor at which the loads do no work in the mechanism: no factor beyond it can stand. The
+    same number as `factor`, by another route."""
+
+    @classmethod
+    def _of(cls, core: _core.LimitEnd) -> LimitEnd:
+        forces = None if core.forces is None else ContactForces(None, ANY, core.forces)
+        mechanism = dict(zip(core.names, core.velocities, strict=True))
+        return cls(core.factor, mechanism, forces, core.imbalance, core.closing, core.bound)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, in types that JSON knows; what is no finite number is None."""
+        return {
+            "factor": _finite(self.factor),
+            "mechanism": {name: motion.tolist() for name, motion in self.mechanism.items()},
+            "imbalance": _finite(self.imbalance),
+            "closing": _finite(self.closing),
+            "bound": _finite(self.bound),
+        }
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Limit:
+    """The answer of `limit`."""
+
+    status: str
+    """"solved"; "no_solution" if the structure stands under no factor: `factor` is then not a
+    number, and `mechanism` how it falls whatever the push; or why the solver stopped without an
+    answer."""
+    lower: LimitEnd
+    """The least factor with which the structure can stand."""
+    upper: LimitEnd
+    """The greatest."""
+    pivots: int
+    """Pivots of the walk from the basis that stands."""
+    iterations: int
+    """Matrices factored by the interior-point method."""
+    seconds: float
+    """Wall time."""
+    names: tuple[str, ...]
+    """The movable bodies that are there."""
+    push: dict[str, tuple[float, ...]]
+    """The forces and moments that were asked about, N and N m."""
+    gravity: tuple[float, ...] | None
+    """What was added to gravity, m/s^2, times the factor."""
+    scene: Scene = field(repr=False)
+    """The scene asked about."""
+
+    @property
+    def factor(self) -> float:
+        """The greatest factor; infinite if nothing limits it."""
+        return self.upper.factor
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """(least, greatest): it can stand for the factors between them, and no others."""
+        return self.lower.factor, self.upper.factor
+
+    @property
+    def mechanism(self) -> dict[str, NDArray[np.float64]]:
+        """How it collapses at the greatest factor; see `LimitEnd.mechanism`."""
+        return self.upper.mechanism
+
+    @property
+    def forces(self) -> ContactForces | None:
+        """The contact forces at the greatest factor; see `LimitEnd.forces`."""
+        return self.upper.forces
+
+    def __copy__(self) -> Limit:
+        return self  # nobody can change it
+
+    def __str__(self) -> str:
+        work = counted(self.pivots, "pivot") if self.pivots else ""
+        if self.iterations or not work:
+            work += (", " if work else "") + counted(self.iterations, "iteration")
+        moving = f"{len(self.mechanism)} of {counted(len(self.names), 'block')}"
+        falls = f"{moving} ({shorten(self.mechanism)})"
+        if self.status == "no_solution":
+            return f"Stands under no factor of the push, falls: {falls}; {work}."
+        if self.status != "solved":
+            return f"No answer ({self.status}): {work}."
+        least, greatest = self.bounds
+        told = f"Can stand for load factors from {least:.6g} to {greatest:.6g}"
+        if not self.mechanism:
+            return f"{told}: nothing limits the push; {work}."
+        return f"{told}, collapse: {falls}; {work}."
+
+    def __repr__(self) -> str:
+        return f"<Limit: {self}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the scene and the forces, in types that JSON knows."""
+        return {
+            "status": self.status,
+            "factor": _finite(self.factor),
+            "bounds": [_finite(bound) for bound in self.bounds],
+            "push": {name: list(force) for name, force in self.push.items()},
+            "gravity": None if self.gravity is None else list(self.gravity),
+            "lower": self.lower.to_dict(),
+            "upper": self.upper.to_dict(),
+            "pivots": self.pivots,
+            "iterations": self.iterations,
+            "seconds": self.seconds,
+        }
+
+    def draw(self, path: str | PathLike[str]) -> None:
+        """Write a picture of the forces and of the collapse at the greatest factor (.svg, .png)."""
+        from drystone import pictures
+
+        pictures.save(pictures.limit_figure(self), path)
+
+    def _repr_svg_(self) -> str:
+        from drystone import pictures
+
+        return pictures.svg(pictures.limit_figure(self))
+
+
+def limit(
+    scene: Scene,
+    push: Push | None = None,
+    gravity: Sequence[float] | None = None,
+    blocks: Iterable[str] | None = None,
+    *,
+    facets: int = FACETS,
+    cone: str = ROUND,
+) -> Limit:
+    """Find the load factors t with which a structure can stand under its loads and t times a push.
+
+    `push` gives forces on bodies (see `Push`), `gravity` an acceleration that is added to gravity,
+    m/s^2: at least one of the two. `blocks` names the movable bodies of a sub-assembly, as in
+    `check`; `cone` is "round", "inscribed" or "circumscribed" there, and `facets` the edges of a
+    pyramid.
+
+    The factors form an interval, infinite where nothing limits them. "Can stand": contact forces
+    within the friction cones balance all loads (the static, or lower bound, theorem of limit
+    analysis), and beyond it a mechanism proves that there are none. This is the answer of the
+    associated flow rule, in which what slides also opens. Friction does not open: with it the
+    factor is an upper bound of the load at which a structure may already begin to move, exact where
+    nothing slides in the mechanism.
+
+    Raises SceneError for an unknown name, a fixed body, wrong numbers or bodies that overlap.
+
+    >>> import drystone as ds
+    >>> tower = ds.scenes.column(11, friction=2.0)  # ten unit blocks on a fixed one
+    >>> lim = ds.limit(tower, gravity=(9.81, 0))
+    >>> round(lim.factor, 9), len(lim.mechanism)
+    (0.1, 10)
+    """
+    if isinstance(blocks, str):
+        raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
+    names = None if blocks is None else list(blocks)
+    cones = core_cones(facets, CONES[0] if cone == ROUND else cone)
+    scene = copy.copy(scene)
+    forces, pull = core_push(scene, push, gravity)
+    core = _core.limit(scene._core, forces, pull, names, cones, cone == ROUND)
+    fixed = {body.name for body in scene.bodies if body.fixed}
+    there = [name for name in scene.names if name not in fixed and (names is None or name in names)]
+    return limit_of(core, scene, there, forces, pull)
+
+
+def core_push(
+    scene: Scene, push: Push | None, gravity: Sequence[float] | None
+) -> tuple[CoreForces, tuple[float, ...] | None]:
+    """A push as the core takes it; SceneError for what is none."""
+    if push is None and gravity is None:
+        raise _core.SceneError("nothing pushes: give push= (forces on bodies) or gravity=")
+    if push is not None and not isinstance(push, Mapping):
+        raise _core.SceneError(
+            f"push must be a dict of forces by body, as {{'7': (100, 0)}}, not {push!r:.80}"
+        )
+    n = scene.dimension
+    more = 1 if n == 2 else 3
+    forces: CoreForces = []
+    for name, force in (push or {}).items():
+        given = _numbers(force)
+        if not isinstance(name, str) or given is None or len(given) not in (n, n + more):
+            wanted = f"{n} numbers of force, and {more} of moment behind them if there is one"
+            raise _core.SceneError(f"the push on {name!r} must be {wanted}, not {force!r:.80}")
+        moment = (*(0.0,) * (3 - more), *given[n:]) if len(given) > n else (0.0, 0.0, 0.0)
+        forces.append((name, given[:n], (moment[0], moment[1], moment[2])))
+    return forces, None if gravity is None else vector(gravity, n, "gravity")
+
+
+def limit_of(
+    core: _core.Limit,
+    scene: Scene,
+    names: Iterable[str],
+    forces: CoreForces,
+    gravity: tuple[float, ...] | None,
+) -> Limit:
+    """The answer, from that of the core."""
+    in_plane = scene.dimension == 2
+    told = {name: (*force, *(moment[2:] if in_plane else moment)) for name, force, moment in forces}
+    return Limit(
+        core.status,
+        LimitEnd._of(core.lower),
+        LimitEnd._of(core.upper),
+        core.pivots,
+        core.iterations,
+        core.seconds,
+        tuple(names),
+        told,
+        gravity,
+        scene,
+    )
+
+
+def _numbers(value: Any) -> tuple[float, ...] | None:
+    if isinstance(value, str):
+        return None
+    try:
+        return tuple(float(x) for x in value)
+    except (TypeError, ValueError):
+        return None
+
+
+def _finite(value: float) -> float | None:
+    return value if -float("inf") < value < float("inf") else None
