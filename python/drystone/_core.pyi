@@ -682,7 +682,7 @@ def forces_along(
     every: int = 1,
     progress: Callable[[int, int], None] | None = None,
     cones: tuple[int, str] | None = None,
-    held: Sequence[Sequence[str]] = ...,
+    held: Sequence[Sequence[str]] | None = None,
     any_forces: bool = False,
 ) -> StructureForces:
     """Contact forces while movable bodies are put up in an order, the first put up first.

@@ -90,6 +90,15 @@ class ContactForces(Sequence[ContactForce]):
         return found
 
     @property
+    def kind(self) -> str:
+        """ "canonical", or "any" of those that a verdict was found with."""
+        return self._kind
+
+    def as_found(self) -> ContactForces:
+        """Those that the verdict was found with, as long as no others have been computed."""
+        return self if self._source is None else ContactForces(self._source, ANY)
+
+    @property
     def bodies(self) -> NDArray[np.int64]:
         """(points, 2): `a` and `b` as places in `scene.bodies`."""
         return self._core.bodies()
@@ -161,12 +170,12 @@ class ContactForces(Sequence[ContactForce]):
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return type(self)._again, (self._core.to_bytes(),)
+        return type(self)._again, (self._core.to_bytes(), self._kind)
 
     @classmethod
-    def _again(cls, state: bytes) -> ContactForces:
+    def _again(cls, state: bytes, kind: str) -> ContactForces:
         """What was pickled; DrystoneError if the bytes are none."""
-        return cls(None, CANONICAL, _core.ContactForces.from_bytes(state))
+        return cls(None, kind, _core.ContactForces.from_bytes(state))
 
     def json_lines(self, together: int = 4096) -> Iterator[str]:
         """JSON objects with the fields of `ContactForce`, one a line, some `together`."""

@@ -190,6 +190,7 @@ class Verdict:
             "accelerations": {
                 name: row.tolist() for name, row in zip(self.names, self.accelerations, strict=True)
             },
+            "forces_kind": self.forces.kind,
             "forces": forces,
             "pivots": self.pivots,
             "major_cycles": self.major_cycles,

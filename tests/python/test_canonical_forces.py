@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 import drystone as ds
+from drystone.cli import run
 from drystone.viewer.of_plan import plan_recording
 
 G = 9.81
@@ -299,9 +300,9 @@ def test_a_world_at_rest_shows_them_and_carries_its_own(name: str) -> None:
         shown = _named(scene, world.forces)
         _same(expected, {key: shown.get(key, 0.0) for key in expected})
     assert world.snapshot() == untold.snapshot()
-    run = ds.simulate(scene, steps=2, forces=True)
+    recorded = ds.simulate(scene, steps=2, forces=True)
     told = np.array([f.force for f in world.forces])
-    assert run.forces[run.force_starts[1] :] == pytest.approx(told, abs=1e-9)
+    assert recorded.forces[recorded.force_starts[1] :] == pytest.approx(told, abs=1e-9)
 
 
 def test_a_plan_page_shows_them_and_what_hands_bear() -> None:
@@ -315,3 +316,15 @@ def test_a_plan_page_shows_them_and_what_hands_bear() -> None:
     captions = dict(plan_recording(held).captions)
     step = next(step for step, names in enumerate(held.holds) if names)
     assert f"The hand on {held.holds[step][0]} bears" in captions[step]
+
+
+def test_the_command_line_computes_them_of_scenes_that_are_not_too_large(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def kind(*options: str) -> str:
+        assert run(["check", "pyramid:3", "--json", *options]) == 0
+        return str(json.loads(capsys.readouterr().out)["forces_kind"])
+
+    assert [kind(), kind("--forces", "any")] == ["canonical", "any"]
+    monkeypatch.setattr("drystone.cli.check.MOST_POINTS", 10)
+    assert [kind(), kind("--forces", "canonical")] == ["any", "canonical"]

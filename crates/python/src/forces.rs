@@ -49,7 +49,8 @@ impl Gathered {
 const PERIOD: Duration = Duration::from_millis(100);
 
 #[pyfunction]
-#[pyo3(signature = (scene, order, every=1, progress=None, cones=None, held=Vec::new(), any_forces=false))]
+#[pyo3(signature = (scene, order, every=1, progress=None, cones=None, held=None, any_forces=false))]
+#[allow(clippy::too_many_arguments)]
 pub fn forces_along(
     py: Python<'_>,
     scene: &Scene,
@@ -57,7 +58,7 @@ pub fn forces_along(
     every: usize,
     progress: Option<Py<PyAny>>,
     cones: Option<(usize, String)>,
-    held: Vec<Vec<String>>,
+    held: Option<Vec<Vec<String>>>,
     any_forces: bool,
 ) -> PyResult<StructureForces> {
     if every == 0 {
@@ -69,7 +70,7 @@ pub fn forces_along(
     interruptible(py, || {
         let blocks = assembly.named(&order)?;
         let wanted = |placed: usize| (blocks.len() - placed).is_multiple_of(every);
-        let held = held.iter().map(|names| assembly.named(names)).collect::<Result<Vec<_>, _>>()?;
+        let held = held.iter().flatten().map(|names| assembly.named(names)).collect::<Result<Vec<_>, _>>()?;
         let forces = if any_forces { WhichForces::Any } else { WhichForces::Canonical };
         let course = Course { order: &blocks, held: &held, forces };
         core::forces_along(&assembly, &course, wanted, |structure| {

@@ -25,6 +25,7 @@ from drystone.cli.options import (
     Split,
     StabilityTest,
     Up,
+    WhichForces,
 )
 from drystone.cli.scene import scene_app
 
@@ -65,11 +66,18 @@ def check(
         ConeOfCheck,
         typer.Option(help="In space: Coulomb's round cones, or pyramids within, around, or both."),
     ] = ConeOfCheck.round,
+    forces: Annotated[
+        WhichForces | None,
+        typer.Option(
+            help="Of least norm (by default, up to 20,000 contact points), or those found first."
+        ),
+    ] = None,
 ) -> int:
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command
 
-    return command.run(scene, blocks, block, as_json, output, facets, cone.value)
+    which = None if forces is None else forces.value
+    return command.run(scene, blocks, block, as_json, output, facets, cone.value, which)
 
 
 @app.command()

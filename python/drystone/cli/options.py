@@ -77,6 +77,13 @@ class ConeOfCheck(str, Enum):
     both = "both"
 
 
+class WhichForces(str, Enum):
+    """Which contact forces `check` shows."""
+
+    canonical = "canonical"
+    any = "any"
+
+
 Facets = Annotated[int, typer.Option(min=3, help="In space: edges of a friction cone.")]
 
 

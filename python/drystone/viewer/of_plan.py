@@ -26,7 +26,7 @@ Progress = Callable[[int, int], None]
 Hands = list[tuple[str, list[float]]]
 """Held blocks, and the wrench of the hand on each: force, N, and moment about its centre, N m."""
 
-MOST_POINTS = {2: 400_000, 3: 150_000}
+MOST_POINTS = {2: 250_000, 3: 100_000}
 """Canonical forces are computed of so many contact points, those of all frames together, by
 dimension: for some 10 s. Of longer plans every k-th structure has them."""
 
