@@ -41,7 +41,7 @@ export interface Body {
     friction: number;
     /** In the plane: corners about the centre of mass, m, counter-clockwise. */
     vertices: [number, number][] | null;
-    /** In space: convex pieces, which may touch. */
+    /** In space: convex pieces, which may touch, or one closed surface. */
     pieces: Piece[] | null;
     /**
      * Where the body is without poses. In the plane x, y (m) of the centre of mass and turn (rad,
@@ -50,12 +50,14 @@ export interface Body {
     pose: number[];
 }
 
-/** A convex polyhedron. */
+/** A convex polyhedron, unless it is a closed surface. */
 export interface Piece {
     /** Corners in the body's frame, m. */
     vertices: [number, number, number][];
     /** Corners of each face, by index, counter-clockwise from outside. */
     faces: number[][];
+    /** Whether it is a closed surface of triangles, which need not be convex. */
+    surface: boolean;
 }
 
 export interface Frames {

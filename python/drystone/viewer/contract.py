@@ -37,10 +37,12 @@ class Packed(TypedDict):
 
 
 class PieceJson(TypedDict):
-    """A convex polyhedron in its body's frame; faces are counter-clockwise from outside."""
+    """A convex polyhedron, unless it is a closed surface, in its body's frame; faces are
+    counter-clockwise from outside."""
 
     vertices: list[list[float]]
     faces: list[list[int]]
+    surface: bool
 
 
 class BodyJson(TypedDict):

@@ -187,11 +187,12 @@ def _body(body: Body | Solid) -> BodyJson:
 def _pieces(body: Solid) -> list[PieceJson]:
     if body.surface is not None:
         vertices, faces = body.surface.vertices.tolist(), body.surface.triangles.tolist()
-        return [{"vertices": vertices, "faces": faces}]
+        return [{"vertices": vertices, "faces": faces, "surface": True}]
     return [
         {
             "vertices": piece.vertices.tolist(),
             "faces": [list(face) for face in piece.faces],
+            "surface": False,
         }
         for piece in body.pieces
     ]

@@ -4,12 +4,14 @@ import { State } from "../contract.ts";
 import type { Film } from "../film.ts";
 import type { Explode } from "./explode.ts";
 import { type Half, halvesOf, within } from "./hull.ts";
+import { Triangles } from "./triangles.ts";
 
 export class Picking {
     private readonly film: Film;
     private readonly explode: Explode;
-    /** The half-spaces of the pieces of each body, in its own frame. */
+    /** The half-spaces of the convex pieces of each body, in its own frame. */
     private readonly halves: Half[][][];
+    private readonly surfaces: Triangles[][];
     /** From the world to each body's frame, as drawn in `at`: names ask for all of them, often. */
     private inverses: Matrix4[] = [];
     private at = "";
@@ -17,7 +19,11 @@ export class Picking {
     constructor(film: Film, explode: Explode) {
         this.film = film;
         this.explode = explode;
-        this.halves = film.bodies.map(({ pieces }) => (pieces ?? []).map(halvesOf));
+        const pieces = film.bodies.map((body) => body.pieces ?? []);
+        this.halves = pieces.map((all) => all.filter(({ surface }) => !surface).map(halvesOf));
+        this.surfaces = pieces.map((all) =>
+            all.filter(({ surface }) => surface).map((piece) => new Triangles(piece)),
+        );
     }
 
     /**
@@ -51,7 +57,10 @@ export class Picking {
         const own = new Ray().copy(ray).applyMatrix4(inverse);
         const kept = section ? [keptBy(section.clone().applyMatrix4(inverse))] : [];
         const spans = this.halves[body].map((piece) => within(own, [...piece, ...kept]));
-        return Math.min(...spans.map((span) => (span && span[1] > 0 ? span[0] : Infinity)));
+        return Math.min(
+            ...spans.map((span) => (span && span[1] > 0 ? span[0] : Infinity)),
+            ...this.surfaces[body].map((surface) => surface.distance(own, kept)),
+        );
     }
 
     private renew(frame: number): void {

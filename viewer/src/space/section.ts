@@ -87,7 +87,9 @@ export class Section {
     private cut(frame: number, body: number, plane: Plane): Vector3[][] {
         const matrix = this.explode.placed(frame, body);
         const pieces = this.film.bodies[body].pieces ?? [];
-        return pieces.map((piece) => cut(piece, matrix, plane));
+        // A surface is seen into: what of it lies in the plane is not filled.
+        const convex = pieces.filter(({ surface }) => !surface);
+        return convex.map((piece) => cut(piece, matrix, plane));
     }
 }
 

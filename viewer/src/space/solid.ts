@@ -7,6 +7,9 @@ import { along, without } from "./seams.ts";
 /** Corners closer than this share of the body's size are one. */
 const SAME = 1e-5;
 
+/** Cosine of the angle by which a surface turns at an edge that is drawn: 0.35 radians. */
+const SHARP = 0.94;
+
 /** All faces, fanned into triangles, each with the normal of its face. */
 export function facesOf({ pieces }: Body): BufferGeometry {
     const positions: number[] = [];
@@ -34,7 +37,9 @@ export function edgesOf({ pieces }: Body): number[] {
     const seen = new Map<string, Vector3[]>();
     faces.forEach((own, at) => {
         const others = faces.filter((_, piece) => piece !== at).flat();
+        const curved = pieces?.[at].surface ?? false;
         for (const [a, b, beside] of edgesOfPiece(own, near)) {
+            if (curved && isSeam(beside)) continue;
             const seams = others
                 .filter((face) => beside.some((one) => inOnePlane(one, face, near)))
                 .map((face) => along(face, a, b, near))
@@ -63,6 +68,11 @@ function edgesOfPiece(faces: Face[], near: number): [Vector3, Vector3, Face[]][]
     return [...found.values()].filter(
         ([, , [one, other]]) => !other || !inOnePlane(one, other, near),
     );
+}
+
+/** Whether an edge is one between facets of a curved surface. */
+function isSeam([one, other]: Face[]): boolean {
+    return other !== undefined && one.normal.dot(other.normal) > SHARP;
 }
 
 /** The same for ends in the same places, in whichever order. */

@@ -17,7 +17,21 @@ export function boxPiece(size: number[], at = [0, 0, 0]): Piece {
         [0, 4, 6, 2],
         [1, 3, 7, 5],
     ];
-    return { vertices: Array.from({ length: 8 }, (_, k) => corner(k)), faces };
+    const vertices = Array.from({ length: 8 }, (_, k) => corner(k));
+    return { vertices, faces, surface: false };
+}
+
+/** Convex pieces apart from each other as one surface of triangles. */
+export function surfacePiece(pieces: Piece[]): Piece {
+    const vertices = pieces.flatMap((piece) => piece.vertices);
+    const faces = pieces.flatMap((piece, i) => {
+        const start = pieces.slice(0, i).reduce((sum, { vertices }) => sum + vertices.length, 0);
+        const triangles = piece.faces.flatMap(([a, ...rest]) =>
+            rest.slice(1).map((c, k) => [a, rest[k], c]),
+        );
+        return triangles.map((face) => face.map((corner) => corner + start));
+    });
+    return { vertices, faces, surface: true };
 }
 
 export function solid(name: string, at: number[], pieces: Piece[], fixed = false): Body {

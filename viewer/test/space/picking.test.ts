@@ -4,8 +4,9 @@ import { Matrix4, Plane, Ray, Vector3 } from "three";
 import { Explode } from "../../src/space/explode.ts";
 import { cut, halvesOf, within } from "../../src/space/hull.ts";
 import { Picking } from "../../src/space/picking.ts";
+import { Triangles } from "../../src/space/triangles.ts";
 import { aroundOf, boxOf } from "../../src/space/view.ts";
-import { boxPiece, cubesFilm } from "./fixture.ts";
+import { boxPiece, cubesFilm, surfacePiece } from "./fixture.ts";
 
 const ray = (from: number[], way: number[]) =>
     new Ray(new Vector3(...from), new Vector3(...way).normalize());
@@ -49,6 +50,15 @@ test("bodies drawn apart are found where they are drawn", async () => {
     const gap = explode.of(2).z - explode.of(1).z;
     assert.ok(Math.abs(gap - 1) < 1e-6, "twice as far from each other");
     assert.equal(picks.bodyAt(0, along, null), 1, "low has gone up to where top was");
+});
+
+test("a surface is met where its triangles are, not in its hull", () => {
+    const two = new Triangles(surfacePiece([boxPiece([1, 1, 1]), boxPiece([1, 1, 1], [3, 0, 0])]));
+    assert.equal(two.distance(ray([0, 0, 9], [0, 0, -1]), []), 8.5);
+    assert.equal(two.distance(ray([1.5, 0.1, 9], [0, 0, -1]), []), Infinity, "between the boxes");
+    const kept = [{ normal: new Vector3(0, 0, 1), offset: 0 }];
+    assert.equal(two.distance(ray([0.1, 0, 9], [0, 0, -1]), kept), 9.5, "its floor, cut open");
+    assert.equal(two.distance(ray([0, 9, 9], [0, 0, -1]), []), Infinity);
 });
 
 test("a plane cuts a turned box in a polygon of the right area", () => {

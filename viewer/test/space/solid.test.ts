@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Vector3 } from "three";
 import { normalOf } from "../../src/space/faces.ts";
 import { edgesOf, facesOf } from "../../src/space/solid.ts";
-import { boxPiece, solid } from "./fixture.ts";
+import { boxPiece, solid, surfacePiece } from "./fixture.ts";
 
 const lines = (ends: number[]) => ends.length / 6;
 
@@ -17,6 +17,11 @@ test("a box has twelve edges and twelve triangles, with normals outward", () => 
         const corner = new Vector3().fromBufferAttribute(positions, i);
         assert.ok(corner.dot(new Vector3().fromBufferAttribute(normals, i)) > 0.4);
     }
+});
+
+test("a surface has edges where it turns, none across its faces", () => {
+    const box = solid("box", [0, 0, 0], [surfacePiece([boxPiece([1, 2, 3])])]);
+    assert.equal(lines(edgesOf(box)), 12);
 });
 
 test("no edge where two pieces go on in one plane", () => {
@@ -45,6 +50,6 @@ test("the normal of a face does not hang on its first corners", () => {
         [2, 0, 5],
         [2, 2, 5],
     ];
-    const normal = normalOf({ vertices, faces: [] }, [0, 1, 2, 3]);
+    const normal = normalOf({ vertices, faces: [], surface: false }, [0, 1, 2, 3]);
     assert.ok(normal.distanceTo(new Vector3(0, 0, 1)) < 1e-12);
 });
