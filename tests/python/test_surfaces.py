@@ -314,6 +314,28 @@ def test_a_ball_in_a_socket() -> None:
     assert not stands(*pair, friction=0, gravity=(9.81, 0, 3))
 
 
+def test_many_points_are_thinned_out_within_the_stated_error() -> None:
+    """A fine ball in its socket: thousands of facet corners, of which some hundreds are left. Every
+    corner of a facet, pressed along its normal, is a sum of what those bear."""
+    sections, rows = 64, 32
+    angles = -np.pi / 2 * (1 - np.arange(rows // 2 + 1) / (rows // 2))
+    profile = [(0, -2), (2, -2), (2, 0), *((np.cos(a), np.sin(a)) for a in angles[:0:-1]), (0, -1)]
+    sphere = ball(1, rows=rows, sections=sections)
+    scene = scene_of(("socket", revolved(profile, sections)), ("ball", sphere), friction=0)
+    contacts = scene.contacts
+    facets = sphere[0][sphere[1]]
+    facets = facets[facets[:, :, 2].max(axis=1) < 1e-9]
+    assert len(contacts) < len(facets)  # and not three for each
+    columns = [np.r_[c.normal, np.cross(c.point, c.normal)] for c in contacts]
+    normals = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
+    normals /= -np.linalg.norm(normals, axis=1)[:, None]
+    for k in np.random.default_rng(0).choice(len(facets), 40, replace=False):
+        wrench = np.r_[normals[k], np.cross(facets[k, 0], normals[k])]
+        assert nnls(np.array(columns).T, wrench)[1] < 0.05
+    assert ds.check(scene).stable
+    assert [c.feature for c in scene.contacts] == [c.feature for c in contacts]
+
+
 # Assemblies
 
 
@@ -375,6 +397,23 @@ def test_a_box_with_a_lid() -> None:
     assert plan.directions[0] == pytest.approx((0, 0, 1))
     assert stands(("tray", tray), ("lid", lid), friction=0, gravity=(9, 2, -1))
     assert not stands(("tray", tray), ("lid", lid), friction=0, gravity=(0, 0, 1))
+
+
+def test_straight_ways_out_of_fine_parts() -> None:
+    """A peg leaves its hole upwards if its head is there, downwards if not; one with two heads is
+    locked in."""
+    scene = scene_of(("plate", PLATE), ("peg", peg(1, 1.5)))
+    plan = ds.plan(scene, clear_path=True)
+    assert (plan.order, plan.directions) == (("peg",), ((0.0, 0.0, 1.0),))
+    stopper = revolved([(0, -1), (1.5, -1), (1.5, 0), (1, 0), (1, 2), (1.5, 2), (1.5, 3), (0, 3)])
+    locked = ds.plan(scene_of(("plate", PLATE), ("stopper", stopper)), clear_path=True)
+    assert locked.status == "locked"
+    assert locked.blocked[0].name == "stopper"
+    # Through a level bore the way out is along the axis of neither the world nor a contact.
+    turn = np.array([[0.8, 0, 0.6], [0, 1, 0], [-0.6, 0, 0.8]])
+    plate, headed = ((mesh[0] @ turn.T, mesh[1]) for mesh in (PLATE, peg(0.999, 1.5)))
+    plan = ds.plan(scene_of(("plate", plate), ("peg", headed), friction=2), clear_path=True)
+    assert plan.directions[0] == pytest.approx(turn @ [0, 0, 1])
 
 
 def test_an_arch_of_surfaces_stands_and_its_plan_needs_a_hand() -> None:

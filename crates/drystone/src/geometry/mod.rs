@@ -28,5 +28,5 @@ pub(crate) use principal::{OWN_AXES, principal};
 pub use shape::{Face, Numbers, Shape};
 pub use solid::Solid;
 pub use surface::Surface;
-pub use sweep::Piece;
+pub use sweep::{Piece, Sweeping};
 pub(crate) use vectors::{cross, dot, length, minus, minus_of, norm, plus_times, product, unit};

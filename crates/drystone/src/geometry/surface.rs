@@ -33,6 +33,8 @@ pub struct Surface {
     starts: Vec<u32>,
     /// The edges at each vertex, one vertex after the other.
     around: Vec<u32>,
+    /// The first triangle at each vertex.
+    owners: Vec<u32>,
     /// Of each vertex the sum of the normals around it, each by the angle there (J. A. Baerentzen and H. Aanaes, 2005).
     corners: Vec<Vector3>,
     tree: Bvh,
@@ -63,9 +65,9 @@ impl Surface {
         let (faces, normals, areas) = flat_faces(&vertices, &triangles, &crosses, (&edges, &sides), tight);
         let tree = tree_of(&vertices, &triangles);
         let (starts, around) = around_of(vertices.len(), &edges);
-        let corners = Vec::new();
+        let (corners, owners) = (Vec::new(), owners_of(vertices.len(), &triangles));
         let mut surface =
-            Self { vertices, triangles, faces, normals, areas, edges, sides, starts, around, corners, tree };
+            Self { vertices, triangles, faces, normals, areas, edges, sides, starts, around, owners, corners, tree };
         surface.turn_edges();
         surface.corners = surface.corner_normals();
         Ok(surface)
@@ -163,6 +165,11 @@ impl Surface {
         self.around[from..to].iter().map(|&edge| &self.edges[edge as usize])
     }
 
+    /// The first of the triangles at a vertex.
+    pub(crate) fn owner(&self, vertex: u32) -> u32 {
+        self.owners[vertex as usize]
+    }
+
     /// A vector that looks out of the surface at a vertex.
     pub(crate) fn corner_normal(&self, vertex: u32) -> Vector3 {
         self.corners[vertex as usize]
@@ -245,6 +252,14 @@ fn around_of(vertices: usize, edges: &[SurfaceEdge]) -> (Vec<u32>, Vec<u32>) {
     (starts, around)
 }
 
+fn owners_of(vertices: usize, triangles: &[[u32; 3]]) -> Vec<u32> {
+    let mut owners = vec![u32::MAX; vertices];
+    for (k, triangle) in triangles.iter().enumerate().rev() {
+        triangle.iter().for_each(|&vertex| owners[vertex as usize] = k as u32);
+    }
+    owners
+}
+
 fn sides_of(triangles: &[[u32; 3]], edges: &[SurfaceEdge]) -> Vec<[u32; 3]> {
     let mut sides = vec![[0; 3]; triangles.len()];
     for (number, edge) in edges.iter().enumerate() {
@@ -271,8 +286,8 @@ fn flat_faces(
 ) -> (Vec<u32>, Vec<Vector3>, Vec<f64>) {
     const NONE: u32 = u32::MAX;
     let mut order: Vec<u32> = (0..triangles.len() as u32).collect();
-    let size = |k: u32| crosses[k as usize].length_squared();
-    order.sort_unstable_by(|&i, &j| size(j).total_cmp(&size(i)).then(i.cmp(&j)));
+    let sizes: Vec<f64> = crosses.iter().map(|cross| cross.length_squared()).collect();
+    order.sort_unstable_by(|&i, &j| sizes[j as usize].total_cmp(&sizes[i as usize]).then(i.cmp(&j)));
     let mut faces = vec![NONE; triangles.len()];
     let (mut normals, mut areas) = (Vec::new(), Vec::new());
     for &seed in &order {

@@ -15,10 +15,14 @@
 //! J.-F. Rit, "Maintaining geometric dependencies in an assembly planner", ICRA 1990.
 
 use super::{
-    PoseInSpace, Solid,
+    PoseInSpace, Solid, Vector3,
     vectors::{cross, dot, length, minus, unit},
 };
 use crate::interrupt::poll;
+use parry3d_f64::{
+    bounding_volume::Aabb,
+    partitioning::{Bvh, BvhBuildStrategy, BvhNode},
+};
 
 /// How far a direction may be from lying in a face, radians, to slide along it: far above the rounding of normals, and less
 /// than a contact tolerance on the way of a thousand blocks.
@@ -87,6 +91,13 @@ impl Piece {
         pieces.collect()
     }
 
+    /// The box around it.
+    fn bounds(&self) -> Aabb {
+        let corners = || self.vertices.iter().copied().map(Vector3::from_array);
+        let low = corners().fold(Vector3::INFINITY, Vector3::min);
+        Aabb::new(low, corners().fold(Vector3::NEG_INFINITY, Vector3::max))
+    }
+
     /// Outward unit normals of the faces, each with its area in square metres; in the plane with its length.
     pub fn faces(&self) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
         self.normals.iter().copied().zip(self.areas.iter().copied())
@@ -132,6 +143,91 @@ impl Piece {
         };
         along(&other.vertices, f64::INFINITY, f64::min) - along(&self.vertices, f64::NEG_INFINITY, f64::max)
     }
+}
+
+/// A body that may leave along a line: its convex pieces, or the triangles of its surface in a tree of boxes.
+#[derive(Debug, Clone)]
+pub struct Sweeping {
+    pieces: Vec<Piece>,
+    /// Of many pieces.
+    tree: Option<Bvh>,
+}
+
+/// So many pieces of both bodies are compared each with each.
+const FEW: usize = 64;
+
+impl Sweeping {
+    /// A body of these pieces, or triangles.
+    pub fn of(pieces: Vec<Piece>) -> Self {
+        let tree = (pieces.len() > FEW).then(|| {
+            poll(1000 * pieces.len());
+            let boxes: Vec<Aabb> = pieces.iter().map(Piece::bounds).collect();
+            Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes)
+        });
+        Self { pieces, tree }
+    }
+
+    /// Whether the body is within a surface of many triangles.
+    pub fn is_fine(&self) -> bool {
+        self.tree.is_some()
+    }
+
+    /// The pieces, or triangles.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// Whether pieces of another body are no farther away than this one is wide; of a fine one its box decides.
+    pub fn is_near(&self, other: &Piece) -> bool {
+        let Some(tree) = &self.tree else { return self.pieces.iter().any(|piece| piece.is_near(other)) };
+        let whole = tree.root_aabb();
+        let apart =
+            (whole.mins - Vector3::from_array(other.middle)).max(Vector3::from_array(other.middle) - whole.maxs);
+        apart.max(Vector3::ZERO).length() <= whole.extents().length() + other.radius
+    }
+
+    /// Whether this body, moved along a unit direction as far as one likes, would enter another; see [`Piece::is_stopped_by`].
+    pub fn is_stopped_by(&self, other: &Self, direction: [f64; 3], tolerance: f64) -> bool {
+        let stops = |a: &Piece, b: &Piece| a.is_stopped_by(b, direction, tolerance);
+        match (&self.tree, &other.tree) {
+            (Some(own), Some(others)) => {
+                let meet =
+                    |m: &BvhNode, n: &BvhNode| meet_on_the_way([m.mins(), m.maxs()], [n.mins(), n.maxs()], direction);
+                let mut pairs = own.leaf_pairs(others, meet);
+                pairs.any(|(a, b)| stops(&self.pieces[a as usize], &other.pieces[b as usize]))
+            }
+            (Some(own), None) => other.pieces.iter().any(|b| {
+                let there = b.bounds();
+                let meet = |m: &BvhNode| meet_on_the_way([m.mins(), m.maxs()], [there.mins, there.maxs], direction);
+                own.leaves(meet).any(|a| stops(&self.pieces[a as usize], b))
+            }),
+            (None, Some(others)) => self.pieces.iter().any(|a| {
+                let here = a.bounds();
+                let meet = |n: &BvhNode| meet_on_the_way([here.mins, here.maxs], [n.mins(), n.maxs()], direction);
+                others.leaves(meet).any(|b| stops(a, &other.pieces[b as usize]))
+            }),
+            (None, None) => self.pieces.iter().any(|a| other.pieces.iter().any(|b| stops(a, b))),
+        }
+    }
+}
+
+/// Whether a box that moves along a direction comes to touch another.
+fn meet_on_the_way([low, high]: [Vector3; 2], [there_low, there_high]: [Vector3; 2], direction: [f64; 3]) -> bool {
+    let (mut first, mut last) = (0.0_f64, f64::INFINITY);
+    for k in 0..3 {
+        let (ahead, past) = (there_low[k] - high[k], there_high[k] - low[k]);
+        let along = direction[k];
+        if along.abs() <= SLIDING {
+            if ahead > 0.0 || past < 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let (enter, leave) = if along > 0.0 { (ahead / along, past / along) } else { (past / along, ahead / along) };
+        first = first.max(enter);
+        last = last.min(leave);
+    }
+    first <= last
 }
 
 /// The unit vector along another one, however short.

@@ -10,12 +10,16 @@
 //! what grows from it has all of Q as well.
 
 use super::directions::{along_faces, at_contacts};
-use crate::contact::tolerance_of;
+use crate::contact::{Contact, tolerance_of};
 use crate::error::SceneError;
 use crate::formulate::{Assemble, Assembly, BlockSet};
-use crate::geometry::{Piece, unit};
+use crate::geometry::{Sweeping, dot, unit};
 use crate::scene::SceneOf;
 use std::cell::OnceCell;
+
+/// The cosine with which a direction looks against a contact that stops it, far above what facets' normals are off by where a
+/// direction lies in them.
+const AGAINST: f64 = 0.1;
 
 /// Why a block cannot leave.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +43,7 @@ struct InTheWay {
 pub(super) struct Paths<'a> {
     assembly: &'a Assembly,
     /// Of every body, with the contact tolerance that it allows, metres.
-    pieces: Vec<Vec<Piece>>,
+    swept: Vec<Sweeping>,
     tolerances: Vec<f64>,
     directions: Vec<Vec<[f64; 3]>>,
     /// For each block and direction, once it is asked for.
@@ -69,10 +73,11 @@ impl<'a> Paths<'a> {
                 expected: "finite vectors that are not zero".into(),
             })?);
         }
-        let directions = at_contacts(assembly, &given);
+        let swept: Vec<Sweeping> = scene.bodies().iter().map(|body| Sweeping::of(S::pieces(body))).collect();
+        let directions = at_contacts(assembly, &given, |body| swept[body].is_fine());
         Ok(Self {
             assembly,
-            pieces: scene.bodies().iter().map(S::pieces).collect(),
+            swept,
             tolerances: scene.bodies().iter().map(|body| tolerance_of(scene, body)).collect(),
             known: directions.iter().map(|list| vec![OnceCell::new(); list.len()]).collect(),
             directions,
@@ -88,7 +93,7 @@ impl<'a> Paths<'a> {
         }
         for block in 0..self.blocks() {
             let list = &mut self.directions[block];
-            along_faces(list, &self.pieces, self.assembly.body_index(block), self.assembly.in_plane());
+            along_faces(list, &self.swept, self.assembly.body_index(block), self.assembly.in_plane());
             self.known[block].resize(list.len(), OnceCell::new());
         }
         true
@@ -105,15 +110,28 @@ impl<'a> Paths<'a> {
             let (body, direction) = (assembly.body_index(block), self.directions[block][way]);
             let stops = |&other: &usize| {
                 let tolerance = self.tolerances[body].min(self.tolerances[other]);
-                let past =
-                    |piece: &Piece| self.pieces[other].iter().any(|b| piece.is_stopped_by(b, direction, tolerance));
-                other != body && self.pieces[body].iter().any(past)
+                let (own, others) = (&self.swept[body], &self.swept[other]);
+                let fine = own.is_fine() || others.is_fine();
+                other != body
+                    && (fine && self.presses_against([body, other], direction)
+                        || own.is_stopped_by(others, direction, tolerance))
             };
             let mut blocks = BlockSet::empty(assembly.blocks());
             (0..assembly.blocks()).filter(|&b| stops(&assembly.body_index(b))).for_each(|b| blocks.insert(b));
-            let fixed = (0..self.pieces.len()).filter(|&other| assembly.bodies()[other].fixed).filter(stops).collect();
+            let fixed = (0..self.swept.len()).filter(|&other| assembly.bodies()[other].fixed).filter(stops).collect();
             InTheWay { blocks, fixed }
         })
+    }
+
+    /// Whether a contact of a body with another already shows that the other stops it: to sweep fine surfaces takes longer.
+    fn presses_against(&self, [body, other]: [usize; 2], direction: [f64; 3]) -> bool {
+        let against = |contact: &Contact| {
+            let towards = dot(contact.normal, direction);
+            (if contact.bodies[0] == body { towards } else { -towards }) > AGAINST
+        };
+        let pair = [body.min(other), body.max(other)];
+        let first = self.assembly.contacts().partition_point(|contact| contact.bodies < pair);
+        self.assembly.contacts()[first..].iter().take_while(|contact| contact.bodies == pair).any(against)
     }
 
     /// The first direction in which a block can leave the other blocks of a set.

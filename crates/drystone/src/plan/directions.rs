@@ -1,10 +1,14 @@
 //! Directions in which blocks may leave along a straight line.
 
 use crate::formulate::Assembly;
-use crate::geometry::{Piece, cross, dot, unit};
+use crate::geometry::{Piece, Sweeping, cross, dot, unit};
 
 /// Two directions whose cosine is this close to one are the same: the angle is 1e-6.
 const SAME: f64 = 1e-12;
+
+/// At contacts of a surface of many triangles two directions whose cosine is this close to one are the same: the angle is 0.1. What
+/// lies between them is looked for along faces.
+const SAME_OF_MANY: f64 = 5e-3;
 
 /// Faces whose normals are this near to parallel guide alike: the angle is 1e-4, far above the rounding of coordinates in
 /// files, and too small to matter within a contact tolerance on the way of a block of common size.
@@ -14,7 +18,8 @@ const ALIKE: f64 = 5e-9;
 const MOST_NORMALS: usize = 16;
 
 /// For each block the directions to try: those given, against gravity, along the axes, along and across its contacts.
-pub(super) fn at_contacts(assembly: &Assembly, given: &[[f64; 3]]) -> Vec<Vec<[f64; 3]>> {
+/// `fine` says which bodies have surfaces of many triangles.
+pub(super) fn at_contacts(assembly: &Assembly, given: &[[f64; 3]], fine: impl Fn(usize) -> bool) -> Vec<Vec<[f64; 3]>> {
     let up = unit(assembly.gravity().map(|g| -g));
     let axes: &[[f64; 3]] = match assembly.in_plane() {
         true => &[[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
@@ -25,11 +30,13 @@ pub(super) fn at_contacts(assembly: &Assembly, given: &[[f64; 3]]) -> Vec<Vec<[f
     let of_all = of_all.fold(Vec::new(), with_new);
     let mut directions = vec![of_all; assembly.blocks()];
     for generator in assembly.generators() {
-        let normal = assembly.contacts()[generator.contact()].normal;
+        let contact = &assembly.contacts()[generator.contact()];
+        let normal = contact.normal;
+        let same = if contact.bodies.into_iter().any(&fine) { SAME_OF_MANY } else { SAME };
         let ways = across(assembly, normal).into_iter().chain([normal]).flat_map(both);
         for block in generator.blocks() {
             let list = std::mem::take(&mut directions[block]);
-            directions[block] = ways.clone().fold(list, with_new);
+            directions[block] = ways.clone().fold(list, |list, way| with_new_by(same, list, way));
         }
     }
     directions
@@ -44,8 +51,12 @@ fn across(assembly: &Assembly, normal: [f64; 3]) -> Vec<[f64; 3]> {
     level.into_iter().flat_map(|level| [level, cross(normal, level)]).collect()
 }
 
-fn with_new(mut list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
-    if !list.iter().any(|&known| dot(known, direction) > 1.0 - SAME) {
+fn with_new(list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
+    with_new_by(SAME, list, direction)
+}
+
+fn with_new_by(same: f64, mut list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
+    if !list.iter().any(|&known| dot(known, direction) > 1.0 - same) {
         list.push(direction);
     }
     list
@@ -56,12 +67,12 @@ fn with_new(mut list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
 ///
 /// Its own faces come first, then those of others, the largest before smaller ones, up to [`MOST_NORMALS`] that are not
 /// parallel.
-pub(super) fn along_faces(list: &mut Vec<[f64; 3]>, pieces: &[Vec<Piece>], body: usize, in_plane: bool) {
-    let own = &pieces[body];
-    let others = pieces.iter().enumerate().filter(|&(other, _)| other != body).flat_map(|(_, pieces)| pieces);
-    let near = others.filter(|other| own.iter().any(|piece| piece.is_near(other)));
+pub(super) fn along_faces(list: &mut Vec<[f64; 3]>, swept: &[Sweeping], body: usize, in_plane: bool) {
+    let own = &swept[body];
+    let others = swept.iter().enumerate().filter(|&(other, _)| other != body).flat_map(|(_, swept)| swept.pieces());
+    let near = others.filter(|other| own.is_near(other));
     let mut normals = Vec::new();
-    add_normals(&mut normals, own.iter());
+    add_normals(&mut normals, own.pieces().iter());
     add_normals(&mut normals, near);
     let upright = [0.0, 0.0, 1.0];
     let across = |k: usize| {

@@ -9,6 +9,7 @@ mod facing;
 mod nearest;
 mod planes;
 mod sharp;
+mod thinned;
 
 use super::{Feature, touch::Touch};
 use crate::{
@@ -18,7 +19,11 @@ use crate::{
 };
 use nearest::distance;
 use parry3d_f64::partitioning::BvhNode;
-use std::{collections::HashSet, sync::Arc};
+use std::{
+    collections::HashSet,
+    hash::{BuildHasherDefault, Hasher},
+    sync::Arc,
+};
 
 /// A body's surface, or those of its convex pieces, in world axes about its centre of mass.
 #[derive(Debug, Clone)]
@@ -135,15 +140,41 @@ pub(super) fn touch(a: &Sheets, b: &Sheets, offset: Vector3, tolerance: f64) -> 
     }
     match () {
         () if deepest > 0.0 => Touch::Overlap { depth: deepest },
-        () if !found.is_empty() => Touch::At(planes::corners(found, tolerance)),
+        () if !found.is_empty() => Touch::At(thinned::thinned(planes::corners(found, tolerance))),
         () if near => Touch::AtBorders(Vec::new()),
         () => Touch::Apart,
     }
 }
 
+/// Pairs of triangles that lie on one another.
+type Lying = HashSet<[u32; 2], BuildHasherDefault<Mixed>>;
+
+/// A hash of two numbers of triangles: there are millions of them, and nobody chooses them to collide.
+#[derive(Default)]
+struct Mixed(u64);
+
+impl Hasher for Mixed {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
+    }
+
+    fn write_u32(&mut self, number: u32) {
+        self.write_u64(number.into());
+    }
+
+    fn write_u64(&mut self, number: u64) {
+        // Multiplication by an odd number near the golden section of 2^64 (D. Knuth, 6.4).
+        self.0 = (self.0.rotate_left(26) ^ number).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+}
+
 /// Every point where two surfaces touch that do not overlap.
 fn points_of(pair: &Pair, candidates: &[[u32; 2]]) -> Vec<Found> {
-    let mut lying = HashSet::new();
+    let mut lying = Lying::default();
     let mut found = Vec::new();
     for &[ta, tb] in candidates {
         poll(LEAF);

@@ -1,11 +1,10 @@
 //! Where an edge or a vertex of one surface touches another: on a face, or across an edge.
 
-use super::{Found, Pair, Plane, nearest::closest};
+use super::{Found, Lying, Pair, Plane, nearest::closest};
 use crate::{
     geometry::{Surface, SurfaceEdge, Vector3},
     interrupt::poll,
 };
-use std::collections::HashSet;
 
 /// Radians. An edge that turns by more is sharp: what touches it only there has no normal but that of slightly rounded ones. With
 /// less it is a seam of a curved surface.
@@ -31,16 +30,18 @@ const PARALLEL: f64 = 1e-6;
 const LOOK: usize = 200;
 
 /// Points at edges and vertices, for pairs of triangles that do not lie on each other.
-pub(super) fn sharp(pair: &Pair, candidates: &[[u32; 2]], lying: &HashSet<[u32; 2]>) -> Vec<Found> {
+pub(super) fn sharp(pair: &Pair, candidates: &[[u32; 2]], lying: &Lying) -> Vec<Found> {
     let mut found = Vec::new();
-    let mut seen: HashSet<(usize, u32, u32)> = HashSet::new();
     for &[ta, tb] in candidates {
         poll(LOOK);
         for side in [0, 1] {
             let (own, against) = if side == 0 { (ta, tb) } else { (tb, ta) };
             let on = Over::of(pair, side, own, against);
+            if on.is_clear() {
+                continue;
+            }
             on.edges(lying, &mut found);
-            on.vertices(lying, &mut seen, &mut found);
+            on.vertices(lying, &mut found);
         }
         crossings(pair, [ta, tb], lying, &mut found);
     }
@@ -78,6 +79,13 @@ impl<'a> Over<'a> {
         self.normal.dot(point - self.corners[0])
     }
 
+    /// Whether all of the triangle is on one side of the other's plane, beyond the tolerance.
+    fn is_clear(&self) -> bool {
+        let heights = self.one.triangles()[self.own as usize].map(|vertex| self.height(self.vertex(vertex)));
+        let beyond = |sign: f64| heights.iter().all(|height| sign * height > self.pair.tolerance);
+        beyond(1.0) || beyond(-1.0)
+    }
+
     /// How far a point is within each side of the triangle, metres.
     fn inwards(&self, point: Vector3) -> [f64; 3] {
         [0, 1, 2].map(|k| {
@@ -98,7 +106,7 @@ impl<'a> Over<'a> {
         sides.into_iter().any(at_side) || corners.into_iter().any(at_tip)
     }
 
-    fn is_lying(&self, own: u32, lying: &HashSet<[u32; 2]>) -> bool {
+    fn is_lying(&self, own: u32, lying: &Lying) -> bool {
         lying.contains(&if self.side == 0 { [own, self.against] } else { [self.against, own] })
     }
 
@@ -136,7 +144,7 @@ impl<'a> Over<'a> {
     }
 
     /// Edges that lie on the triangle: the ends of the part that does.
-    fn edges(&self, lying: &HashSet<[u32; 2]>, found: &mut Vec<Found>) {
+    fn edges(&self, lying: &Lying, found: &mut Vec<Found>) {
         let tolerance = self.pair.tolerance;
         for side in self.one.sides(self.own) {
             let edge = self.one.edges()[side as usize];
@@ -174,11 +182,12 @@ impl<'a> Over<'a> {
     }
 
     /// Vertices on the triangle, but for its sharp borders.
-    fn vertices(&self, lying: &HashSet<[u32; 2]>, seen: &mut HashSet<(usize, u32, u32)>, found: &mut Vec<Found>) {
+    fn vertices(&self, lying: &Lying, found: &mut Vec<Found>) {
         let tolerance = self.pair.tolerance;
         for vertex in self.one.triangles()[self.own as usize] {
+            // Whatever a vertex is near to, all triangles at it are: the first of them looks.
             let point = self.vertex(vertex);
-            if self.height(point).abs() > tolerance || !seen.insert((self.side, vertex, self.against)) {
+            if self.one.owner(vertex) != self.own || self.height(point).abs() > tolerance {
                 continue;
             }
             let mut bent = self.one.edges_at(vertex).filter(|edge| edge.turn > BENT).peekable();
@@ -195,7 +204,7 @@ impl<'a> Over<'a> {
     }
 
     /// Whether a triangle at a vertex lies on the other's.
-    fn lies_about(&self, vertex: u32, lying: &HashSet<[u32; 2]>) -> bool {
+    fn lies_about(&self, vertex: u32, lying: &Lying) -> bool {
         self.one.edges_at(vertex).flat_map(|edge| edge.triangles).any(|t| self.is_lying(t, lying))
     }
 }
@@ -225,7 +234,7 @@ fn is_tip(surface: &Surface, vertex: u32) -> bool {
 }
 
 /// The point where two edges cross, if a plane along both parts the surfaces there.
-fn crossings(pair: &Pair, [ta, tb]: [u32; 2], lying: &HashSet<[u32; 2]>, found: &mut Vec<Found>) {
+fn crossings(pair: &Pair, [ta, tb]: [u32; 2], lying: &Lying, found: &mut Vec<Found>) {
     let [a, b] = pair.surfaces;
     let bent = |of: &'_ Surface, triangle: u32| {
         let edges = of.sides(triangle).map(|side| of.edges()[side as usize]);
