@@ -9,7 +9,7 @@ use drystone_lcp::{
 };
 use serde::{Deserialize, Serialize};
 
-const SEAL: Seal = Seal { kind: *b"DS-STRUC", version: 2 };
+const SEAL: Seal = Seal { kind: *b"DS-STRUC", version: 3 };
 
 /// All but the assembly, which its scene gives again.
 #[derive(Serialize, Deserialize)]

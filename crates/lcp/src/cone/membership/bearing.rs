@@ -21,8 +21,62 @@
 
 use super::{
     super::basis_factor::Reach,
-    {Basic, Change, ConeSolver, ROUNDED, ROUNDING},
+    basis::OUT,
+    journal::{Change, Journal},
+    {Basic, ConeSolver, ROUNDED, ROUNDING},
 };
+use serde::{Deserialize, Serialize};
+
+/// Groups of rows, which columns are known to bear, and how far the values below these lag behind.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Bearing {
+    /// Of each column.
+    pub bears: Vec<bool>,
+    /// Number of the newest group of rows, whether the next row starts another, and the groups' rows as rings.
+    pub groups: u32,
+    pub group_closed: bool,
+    next_in_group: Vec<u32>,
+    /// The newest group has pivots in other groups' rows, or other groups' columns.
+    pub mixed: bool,
+    /// Values below bearing columns are not up to date, for how many answers, and whether that is allowed.
+    pub behind: bool,
+    pub answers_behind: usize,
+    pub lazy: bool,
+}
+
+impl Bearing {
+    pub fn unknown(rows: usize, columns: usize) -> Self {
+        Self {
+            bears: vec![false; columns],
+            groups: 0,
+            group_closed: true,
+            next_in_group: vec![OUT; rows],
+            mixed: false,
+            behind: false,
+            answers_behind: 0,
+            lazy: false,
+        }
+    }
+
+    /// The rows of a group, from one of them on.
+    fn rows_of_group(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
+        std::iter::successors(Some(first), move |&row| {
+            Some(self.next_in_group[row as usize]).filter(|&next| next != first)
+        })
+    }
+
+    /// A column is not known to bear any more.
+    pub fn doubt(&mut self, j: u32, journal: &mut Journal) {
+        if std::mem::take(&mut self.bears[j as usize]) {
+            journal.note(Change::Doubted(j));
+        }
+    }
+
+    pub fn resize(&mut self, rows: usize, columns: usize) {
+        self.bears.resize(columns, false);
+        self.next_in_group.resize(rows, OUT);
+    }
+}
 
 /// Groups looked at before a value is taken to be behind.
 const NEAREST: usize = 16;
@@ -30,13 +84,13 @@ const NEAREST: usize = 16;
 impl ConeSolver {
     /// The direction without what bearing columns pass on.
     pub(super) fn direction_to_bearing(&mut self) {
-        let Self { factor, spike, direction, basic, bears, behind, .. } = self;
-        direction.clear();
-        factor.walk_upper(spike, |p, rate| {
-            direction.push((p, rate));
-            match basic[p as usize] {
-                Basic::Column(j) if bears[j as usize] && rate <= ROUNDED => {
-                    *behind = true;
+        let Self { basis, pivot, bearing, .. } = self;
+        pivot.direction.clear();
+        basis.factor.walk_upper(&pivot.spike, |p, rate| {
+            pivot.direction.push((p, rate));
+            match basis.basic[p as usize] {
+                Basic::Column(j) if bearing.bears[j as usize] && rate <= ROUNDED => {
+                    bearing.behind = true;
                     Reach::Group
                 }
                 _ => Reach::All,
@@ -47,14 +101,16 @@ impl ConeSolver {
     /// Whether the value in a position may be larger than it says: something has not been passed on to its group, or to
     /// one that presses on it. Looks at the nearest groups only.
     pub(super) fn is_behind(&self, position: u32) -> bool {
-        if !self.behind || !matches!(self.basic[position as usize], Basic::Column(j) if self.bears[j as usize]) {
+        if !self.bearing.behind
+            || !matches!(self.basis.basic[position as usize], Basic::Column(j) if self.bearing.bears[j as usize])
+        {
             return false;
         }
         let mut above = vec![position];
         let mut looked_at = 0;
         while let Some(&first) = above.get(looked_at) {
-            for row in self.rows_of_group(first) {
-                if looked_at == NEAREST || self.balance[row as usize].abs() > ROUNDING * self.size {
+            for row in self.bearing.rows_of_group(first) {
+                if looked_at == NEAREST || self.balance.sums[row as usize].abs() > ROUNDING * self.balance.size {
                     return true;
                 }
                 above.extend(self.bearing_on(row));
@@ -66,21 +122,15 @@ impl ConeSolver {
 
     /// A row of each newer group that presses on a row by a column that bears.
     fn bearing_on(&self, row: u32) -> impl Iterator<Item = u32> + '_ {
-        let bearing = self.g.columns_of(row).iter().map(|&(j, _)| j).filter(|&j| self.bears[j as usize]);
-        let group = self.factor.group(row);
-        bearing.map(|j| self.carried_row(j)).filter(move |&carried| self.factor.group(carried) != group)
-    }
-
-    /// The rows of a group, from one of them on.
-    fn rows_of_group(&self, first: u32) -> impl Iterator<Item = u32> + '_ {
-        std::iter::successors(Some(first), move |&row| {
-            Some(self.next_in_group[row as usize]).filter(|&next| next != first)
-        })
+        let bearing =
+            self.problem.g.columns_of(row).iter().map(|&(j, _)| j).filter(|&j| self.bearing.bears[j as usize]);
+        let group = self.basis.factor.group(row);
+        bearing.map(|j| self.carried_row(j)).filter(move |&carried| self.basis.factor.group(carried) != group)
     }
 
     /// Brings the values up to date where loads have not been passed on.
     pub(super) fn catch_up(&mut self) {
-        if std::mem::take(&mut self.behind) {
+        if std::mem::take(&mut self.bearing.behind) {
             self.sum_rows();
             self.refine();
         }
@@ -88,44 +138,44 @@ impl ConeSolver {
 
     /// Looks which columns of the newest group bear (the bearing lemma).
     pub(super) fn certify_newest(&mut self) {
-        if std::mem::take(&mut self.mixed) {
+        if std::mem::take(&mut self.bearing.mixed) {
             return;
         }
-        let newest = self.groups;
-        for k in (0..self.rows.len()).rev() {
-            let row = self.rows[k];
-            if self.factor.group(row) != newest {
+        let newest = self.bearing.groups;
+        for k in (0..self.present.rows.len()).rev() {
+            let row = self.present.rows[k];
+            if self.basis.factor.group(row) != newest {
                 break;
             }
-            if let Basic::Column(j) = self.basic[row as usize]
-                && !self.bears[j as usize]
+            if let Basic::Column(j) = self.basis.basic[row as usize]
+                && !self.bearing.bears[j as usize]
                 && self.is_borne(j)
             {
-                self.bears[j as usize] = true;
-                self.note(Change::Bears(j));
+                self.bearing.bears[j as usize] = true;
+                self.journal.note(Change::Bears(j));
             }
         }
     }
 
     /// Whether what a column presses on older rows only raises forces that are borne.
     fn is_borne(&mut self, j: u32) -> bool {
-        let newest = self.groups;
-        self.spike.clear();
-        for &(row, value) in self.g.column(j) {
-            if self.factor.group(row) != newest {
-                self.spike.set(row, value);
+        let newest = self.bearing.groups;
+        self.pivot.spike.clear();
+        for &(row, value) in self.problem.g.column(j) {
+            if self.basis.factor.group(row) != newest {
+                self.pivot.spike.set(row, value);
             }
         }
-        if self.spike.index().is_empty() {
+        if self.pivot.spike.index().is_empty() {
             return true; // on fixed bodies
         }
-        self.factor.count_walks();
-        self.factor.apply_operations(&mut self.spike);
-        let Self { factor, spike, basic, bears, .. } = self;
+        self.basis.factor.count_walks();
+        self.basis.factor.apply_operations(&mut self.pivot.spike);
+        let Self { basis, pivot, bearing, .. } = self;
         let mut borne = true;
-        factor.walk_upper(spike, |p, rate| {
-            borne &= match basic[p as usize] {
-                Basic::Column(j) => bears[j as usize] && rate <= ROUNDED,
+        basis.factor.walk_upper(&pivot.spike, |p, rate| {
+            borne &= match basis.basic[p as usize] {
+                Basic::Column(j) => bearing.bears[j as usize] && rate <= ROUNDED,
                 Basic::Unit => rate.abs() <= ROUNDED,
             };
             Reach::Group
@@ -135,22 +185,22 @@ impl ConeSolver {
 
     /// The basis changes in a row: whatever presses on its group, or on what presses on it, is not known to bear any more.
     pub(super) fn distrust(&mut self, row: u32) {
-        if self.factor.group(row) == self.groups {
+        if self.basis.factor.group(row) == self.bearing.groups {
             return; // nothing presses on the newest group
         }
-        self.mixed = true;
+        self.bearing.mixed = true;
         let mut doubtful = vec![row];
         while let Some(first) = doubtful.pop() {
-            let (group, mut row) = (self.factor.group(first), first);
+            let (group, mut row) = (self.basis.factor.group(first), first);
             loop {
-                for e in 0..self.g.columns_of(row).len() {
-                    let (j, _) = self.g.columns_of(row)[e];
-                    if self.bears[j as usize] && self.column_group(j) != group {
-                        self.bears_no_more(j);
+                for e in 0..self.problem.g.columns_of(row).len() {
+                    let (j, _) = self.problem.g.columns_of(row)[e];
+                    if self.bearing.bears[j as usize] && self.column_group(j) != group {
+                        self.bearing.doubt(j, &mut self.journal);
                         doubtful.push(self.carried_row(j));
                     }
                 }
-                row = self.next_in_group[row as usize];
+                row = self.bearing.next_in_group[row as usize];
                 if row == first {
                     break;
                 }
@@ -160,36 +210,36 @@ impl ConeSolver {
 
     /// A row of the newest group that a column touches.
     pub(super) fn carried_row(&self, j: u32) -> u32 {
-        let rows = self.g.column(j).iter().map(|&(row, _)| row);
-        rows.max_by_key(|&row| self.factor.group(row)).expect("a basic column has entries")
+        let rows = self.problem.g.column(j).iter().map(|&(row, _)| row);
+        rows.max_by_key(|&row| self.basis.factor.group(row)).expect("a basic column has entries")
     }
 
     /// The newest group that a column touches.
     pub(super) fn column_group(&self, j: u32) -> u32 {
-        self.factor.group(self.carried_row(j))
+        self.basis.factor.group(self.carried_row(j))
     }
 
     /// Puts a row that comes into the newest group, which is a new one if there was an answer in between.
     pub(super) fn join_newest_group(&mut self, row: u32) {
-        if std::mem::take(&mut self.group_closed) {
-            self.groups += 1;
-            self.mixed = false;
+        if std::mem::take(&mut self.bearing.group_closed) {
+            self.bearing.groups += 1;
+            self.bearing.mixed = false;
         }
-        self.join_group(row, self.groups, self.rows.last().copied());
+        self.join_group(row, self.bearing.groups, self.present.rows.last().copied());
     }
 
     /// Puts a row into a group, of which another row may be a member.
     pub(super) fn join_group(&mut self, row: u32, group: u32, member: Option<u32>) {
-        self.factor.set_group(row, group);
-        self.next_in_group[row as usize] = row;
-        if let Some(member) = member.filter(|&member| self.factor.group(member) == group) {
-            self.next_in_group.swap(member as usize, row as usize);
+        self.basis.factor.set_group(row, group);
+        self.bearing.next_in_group[row as usize] = row;
+        if let Some(member) = member.filter(|&member| self.basis.factor.group(member) == group) {
+            self.bearing.next_in_group.swap(member as usize, row as usize);
         }
     }
 
     /// Takes a row out of its group's ring.
     pub(super) fn leave_group(&mut self, row: u32) {
-        let before = self.rows_of_group(row).last().expect("the row itself");
-        self.next_in_group.swap(before as usize, row as usize);
+        let before = self.bearing.rows_of_group(row).last().expect("the row itself");
+        self.bearing.next_in_group.swap(before as usize, row as usize);
     }
 }

@@ -8,7 +8,7 @@
 //! Primal simplex from the basis that is there, with the same pricing, ratio test and factor as phase one (Dantzig, Linear
 //! Programming and Extensions, 1963, chapter 5). The load d is two columns, d and -d, so that t may have either sign.
 
-use super::{Columns, ConeSolver, Membership, OUT, RATE, ROUNDING, STALL};
+use super::{Columns, ConeSolver, Membership, RATE, ROUNDING, STALL, basis::OUT};
 use crate::error::LcpError;
 
 /// How far a load may grow.
@@ -51,8 +51,8 @@ impl ConeSolver {
     pub fn add_load(&mut self, load: &[(usize, f64)]) -> Result<Load, LcpError> {
         let rows: Vec<usize> = load.iter().chain(load).map(|entry| entry.0).collect();
         let values: Vec<f64> = load.iter().map(|entry| entry.1).chain(load.iter().map(|entry| -entry.1)).collect();
-        let columns = Columns::new(self.h.len(), &[0, load.len(), 2 * load.len()], &rows, &values)?;
-        let up = self.g.len() as u32;
+        let columns = Columns::new(self.problem.h.len(), &[0, load.len(), 2 * load.len()], &rows, &values)?;
+        let up = self.problem.g.len() as u32;
         self.append(columns, &[], &[])?;
         Ok(Load { up, down: up + 1 })
     }
@@ -64,13 +64,13 @@ impl ConeSolver {
 
     /// How large the factor of a load can become, from an answer [`Membership::Inside`].
     pub fn greatest(&mut self, load: Load) -> Greatest {
-        let limit = self.counts.pivots + 1000 + 50 * self.rows.len();
+        let limit = self.counts.pivots + 1000 + 50 * self.present.rows.len();
         for _ in 0..ROUNDS {
             match self.phase_two(load, limit) {
                 Some(Greatest::Limited(_)) => {}
                 Some(end) => return end,
                 None => {
-                    if !self.rebuild(&self.basis_set()) {
+                    if !self.rebuild(&self.basis.set(&self.present.rows)) {
                         return Greatest::NumericalTrouble;
                     }
                     self.recompute_values();
@@ -117,7 +117,7 @@ impl ConeSolver {
             stalled = if progress { 0 } else { stalled + 1 };
             best = best.max(factor);
             if stalled == STALL {
-                self.shaky = true;
+                self.basis.shaky = true;
                 continue;
             }
             let least_index = stalled > STALL;
@@ -144,20 +144,20 @@ impl ConeSolver {
 
     /// The column that raises the factor fastest. Leaves the multipliers `y = -B^-T c`, c the factor's gradient.
     fn that_raises(&mut self, load: Load, least_index: bool) -> Option<u32> {
-        self.y.clear();
-        if [load.up, load.down].iter().all(|&j| self.position[j as usize] == OUT) {
+        self.pivot.multipliers.clear();
+        if [load.up, load.down].iter().all(|&j| self.basis.position[j as usize] == OUT) {
             return Some(load.up);
         }
         for (j, rate) in [(load.up, -1.0), (load.down, 1.0)] {
-            let position = self.position[j as usize];
+            let position = self.basis.position[j as usize];
             if position != OUT {
-                self.y.set(position, rate);
+                self.pivot.multipliers.set(position, rate);
             }
         }
-        self.factor.solve_transposed(&mut self.y);
-        let floor = RATE * self.y.largest();
-        let (missing, position) = (&self.missing, &self.position);
-        let allowed = |j: u32| j < load.up.min(load.down) && missing[j as usize] == 0 && position[j as usize] == OUT;
-        self.pricing.entering(&self.g, &self.y, allowed, floor, least_index)
+        self.basis.factor.solve_transposed(&mut self.pivot.multipliers);
+        let floor = RATE * self.pivot.multipliers.largest();
+        let (present, basis) = (&self.present, &self.basis);
+        let allowed = |j: u32| j < load.up.min(load.down) && present.takes_part(j) && basis.is_out(j);
+        self.pricing.entering(&self.problem.g, &self.pivot.multipliers, allowed, floor, least_index)
     }
 }

@@ -25,8 +25,8 @@ const BUILDING: usize = 20;
 impl ConeSolver {
     /// Begins to count what pivots cost.
     pub(super) fn fresh_wear(&self) -> Wear {
-        let effort = self.factor.effort();
-        let building = BUILDING * self.factor.stored();
+        let effort = self.basis.factor.effort();
+        let building = BUILDING * self.basis.factor.stored();
         Wear { pivots: 0, began: effort, last_look: effort, building, fewest: FEWEST }
     }
 
@@ -37,22 +37,22 @@ impl ConeSolver {
         if !wear.pivots.is_multiple_of(LOOK) {
             return false;
         }
-        let effort = self.factor.effort();
+        let effort = self.basis.factor.effort();
         let recent = effort - std::mem::replace(&mut wear.last_look, effort);
         wear.pivots >= wear.fewest && recent * wear.pivots > LOOK * (wear.building + effort - wear.began)
     }
 
     /// Builds the factor again before a pivot, if that is called for. None if that fails.
     pub(super) fn rebuild_if_worn(&mut self, wear: &mut Wear) -> Option<()> {
-        let full = self.factor.stored() > self.most_entries.max(ENTRIES * self.rows.len());
-        let stale = self.factor.left_behind() > REPLACEMENTS * self.basic.len();
+        let full = self.basis.factor.stored() > self.basis.most_entries.max(ENTRIES * self.present.rows.len());
+        let stale = self.basis.factor.left_behind() > REPLACEMENTS * self.basis.basic.len();
         let dear = self.is_dear(wear);
-        if std::mem::take(&mut self.shaky) || full || stale || dear {
-            if !self.rebuild(&self.basis_set()) {
+        if std::mem::take(&mut self.basis.shaky) || full || stale || dear {
+            if !self.rebuild(&self.basis.set(&self.present.rows)) {
                 return None;
             }
             self.recompute_values();
-            self.shaky = false;
+            self.basis.shaky = false;
             *wear = Wear { fewest: 2 * LOOK, ..self.fresh_wear() };
         }
         Some(())
