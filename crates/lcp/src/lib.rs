@@ -43,11 +43,11 @@ mod solution;
 mod solver;
 
 pub use counts::Counts;
-pub use error::LcpError;
+pub use error::{LcpError, StartError};
 pub use matrix::SparseColumns;
 pub use pivot::{Block, Dantzig, Lemke, Method};
 pub use problem::Problem;
-pub use reuse::{Start, StartError};
+pub use reuse::Start;
 pub use settings::Settings;
 pub use solution::{Solution, Status, residual};
 pub use solver::{Origin, Snapshot, Solver, SolverState};

@@ -6,6 +6,7 @@
 //! those indices; that is checked, because a start from another problem gives a violated row among them.
 
 use crate::{
+    error::StartError,
     interrupt::{apart, poll},
     problem::Problem,
     scaling::Scaling,
@@ -20,63 +21,6 @@ pub struct Start {
     pub indices: Vec<usize>,
     /// Solution of the sub-problem (k).
     pub z: Vec<f64>,
-}
-
-/// Why a start was refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StartError {
-    /// `indices` and `z` differ in length.
-    #[error("{indices} indices but {values} values")]
-    Length {
-        /// Number of indices.
-        indices: usize,
-        /// Number of values.
-        values: usize,
-    },
-    /// An index beyond the problem.
-    #[error("index {index} is outside a problem with {n} rows")]
-    OutOfRange {
-        /// The index.
-        index: usize,
-        /// Rows of the problem.
-        n: usize,
-    },
-    /// An index given twice.
-    #[error("index {index} is given twice")]
-    Repeated {
-        /// The index.
-        index: usize,
-    },
-    /// A negative or non-finite `z`.
-    #[error("z[{index}] is {value}: a sub-problem's solution is finite and not negative")]
-    Infeasible {
-        /// Index in the complete problem.
-        index: usize,
-        /// The value.
-        value: f64,
-    },
-    /// `w` is negative on a row of the sub-problem: `z` does not solve it.
-    #[error("w[{index}] = {w:e} is negative there: z does not solve the sub-problem of this matrix and vector")]
-    Violated {
-        /// Index in the complete problem.
-        index: usize,
-        /// The value of `w`.
-        w: f64,
-    },
-    /// Both `z` and `w` are positive on a row.
-    #[error("z[{index}] = {z:e} and w[{index}] = {w:e} are both positive: the start is not complementary")]
-    NotComplementary {
-        /// Index in the complete problem.
-        index: usize,
-        /// The value of `z`.
-        z: f64,
-        /// The value of `w`.
-        w: f64,
-    },
-    /// Rows with `z > 0` depend on one another, and M is not symmetric: Lemke's method has no basis to start from.
-    #[error("the rows with z > 0 depend on one another: for an M that is not symmetric, start from a basic solution")]
-    Dependent,
 }
 
 /// A pair with both sides above this, in the problem's own scale, is not complementary (validity of a start).

@@ -27,11 +27,11 @@ use super::Method;
 use crate::{
     certificate::Scaled,
     counts::Counts,
-    error::LcpError,
+    error::{LcpError, StartError},
     interrupt::apart,
     matrix::SparseColumns,
     problem::Problem,
-    reuse::{Start, StartError},
+    reuse::Start,
     scaling::Scaling,
     settings::Settings,
     solution::{Solution, Status, residual},

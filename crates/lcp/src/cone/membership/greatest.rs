@@ -145,7 +145,7 @@ impl ConeSolver {
     /// The column that raises the factor fastest. Leaves the multipliers `y = -B^-T c`, c the factor's gradient.
     fn that_raises(&mut self, load: Load, least_index: bool) -> Option<u32> {
         self.pivot.multipliers.clear();
-        if [load.up, load.down].iter().all(|&j| self.basis.position[j as usize] == OUT) {
+        if [load.up, load.down].iter().all(|&j| self.basis.is_out(j)) {
             return Some(load.up);
         }
         for (j, rate) in [(load.up, -1.0), (load.down, 1.0)] {
