@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from drystone.limits import Limit, LimitEnd, limit
     from drystone.loads import Load
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
+    from drystone.margins import Margin, margin
     from drystone.plan_answer import Blocked, Plan, TestRecord
     from drystone.planning import plan
     from drystone.scene import Scene
@@ -50,6 +51,7 @@ __all__ = [
     "LimitEnd",
     "Load",
     "ManyPlans",
+    "Margin",
     "Piece",
     "Plan",
     "Run",
@@ -72,6 +74,7 @@ __all__ = [
     "imports",
     "lcp",
     "limit",
+    "margin",
     "meshes",
     "plan",
     "plan_many",
@@ -96,6 +99,7 @@ _HOMES = {
     "LimitEnd": "drystone.limits",
     "Load": "drystone.loads",
     "ManyPlans": "drystone.many",
+    "Margin": "drystone.margins",
     "Piece": "drystone.body",
     "Plan": "drystone.plan_answer",
     "Run": "drystone.simulation",
@@ -115,6 +119,7 @@ _HOMES = {
     "__version__": "drystone._core",
     "check": "drystone.verdict",
     "limit": "drystone.limits",
+    "margin": "drystone.margins",
     "plan": "drystone.planning",
     "plan_many": "drystone.many",
     "simulate": "drystone.simulation",

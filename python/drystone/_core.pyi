@@ -23,6 +23,7 @@ __all__ = [
     "LcpSolver",
     "Limit",
     "LimitEnd",
+    "Margin",
     "Plan",
     "Recording",
     "Replay",
@@ -49,8 +50,10 @@ __all__ = [
     "forces_along",
     "generators",
     "lcp_solve",
+    "least_friction",
     "limit",
     "loads",
+    "margin",
     "pair_frictions",
     "plan",
     "set_friction",
@@ -324,6 +327,19 @@ class Limit:
     pivots: int
     iterations: int
     seconds: float
+
+@final
+class Margin:
+    """`boundary` (n, 2) along `axes`; `tilt` None where it is not known."""
+
+    status: str
+    acceleration: float
+    direction: tuple[float, ...]
+    tilt: float | None
+    end: LimitEnd
+    axes: tuple[tuple[float, ...], tuple[float, ...]]
+    boundary: NDArray[np.float64]
+    questions: int
 
 @final
 class TestRecord:
@@ -627,6 +643,20 @@ def limit(
     """`forces`: body, force on its centroid, moment (three numbers, of which the plane uses the
     last)."""
 
+def margin(
+    scene: Scene,
+    blocks: Sequence[str] | None,
+    turn: bool,
+    tolerance: float,
+    cones: tuple[int, str] | None,
+    round_cones: bool,
+) -> Margin: ...
+def least_friction(
+    scene: Scene,
+    blocks: Sequence[str] | None,
+    cones: tuple[int, str] | None,
+    round_cones: bool,
+) -> float: ...
 def add_load(
     scene: Scene,
     body: str,

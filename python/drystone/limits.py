@@ -58,11 +58,11 @@ class LimitEnd:
     def to_dict(self) -> dict[str, Any]:
         """Everything, in types that JSON knows; what is no finite number is None."""
         return {
-            "factor": _finite(self.factor),
+            "factor": finite(self.factor),
             "mechanism": {name: motion.tolist() for name, motion in self.mechanism.items()},
-            "imbalance": _finite(self.imbalance),
-            "closing": _finite(self.closing),
-            "bound": _finite(self.bound),
+            "imbalance": finite(self.imbalance),
+            "closing": finite(self.closing),
+            "bound": finite(self.bound),
         }
 
 
@@ -139,8 +139,8 @@ class Limit:
         """Everything but the scene and the forces, in types that JSON knows."""
         return {
             "status": self.status,
-            "factor": _finite(self.factor),
-            "bounds": [_finite(bound) for bound in self.bounds],
+            "factor": finite(self.factor),
+            "bounds": [finite(bound) for bound in self.bounds],
             "push": {name: list(force) for name, force in self.push.items()},
             "gravity": None if self.gravity is None else list(self.gravity),
             "lower": self.lower.to_dict(),
@@ -200,9 +200,14 @@ def limit(
     scene = copy.copy(scene)
     forces, pull = core_push(scene, push, gravity)
     core = _core.limit(scene._core, forces, pull, names, cones, cone == ROUND)
-    fixed = {body.name for body in scene.bodies if body.fixed}
-    there = [name for name in scene.names if name not in fixed and (names is None or name in names)]
-    return limit_of(core, scene, there, forces, pull)
+    return limit_of(core, scene, movable(scene, names), forces, pull)
+
+
+def movable(scene: Scene, names: list[str] | None) -> tuple[str, ...]:
+    """Those of some bodies that can move, or of all, in the order of the scene."""
+    wanted = None if names is None else set(names)
+    free = (body.name for body in scene.bodies if not body.fixed)
+    return tuple(name for name in free if wanted is None or name in wanted)
 
 
 def core_push(
@@ -261,5 +266,6 @@ def _numbers(value: Any) -> tuple[float, ...] | None:
         return None
 
 
-def _finite(value: float) -> float | None:
+def finite(value: float) -> float | None:
+    """The value, or None for what JSON has no number for."""
     return value if -float("inf") < value < float("inf") else None

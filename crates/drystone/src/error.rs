@@ -145,6 +145,17 @@ pub enum SceneError {
         /// The existing name closest to it, if any is close.
         nearest: Option<String>,
     },
+    /// A margin without gravity.
+    #[error("there is no gravity, of which a margin is a share: give the scene one (with_gravity)")]
+    NoGravity,
+    /// A load that is to turn with gravity and is not along it.
+    #[error(
+        "the load \"{name}\" is no weight, a force along gravity without a moment: let loads stay (loads=\"stay\")"
+    )]
+    LoadAcross {
+        /// The load.
+        name: String,
+    },
     /// A push on a body that cannot move.
     #[error("\"{name}\" is fixed, or not among the blocks that are there: push one that can move")]
     NotMovable {

@@ -11,6 +11,7 @@ mod lcp;
 mod lcp_solver;
 mod limit;
 mod loads;
+mod margin;
 mod plan;
 mod recording;
 mod run;
@@ -36,6 +37,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<verdict::Verdict>()?;
     module.add_class::<limit::Limit>()?;
     module.add_class::<limit::LimitEnd>()?;
+    module.add_class::<margin::Margin>()?;
     module.add_class::<plan::TestRecord>()?;
     module.add_class::<plan::Plan>()?;
     module.add_class::<plan::Generators>()?;
@@ -52,6 +54,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<lcp_solver::LcpSnapshot>()?;
     module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(limit::limit, module)?)?;
+    module.add_function(wrap_pyfunction!(margin::margin, module)?)?;
+    module.add_function(wrap_pyfunction!(margin::least_friction, module)?)?;
     module.add_function(wrap_pyfunction!(loads::add_load, module)?)?;
     module.add_function(wrap_pyfunction!(loads::add_pressure, module)?)?;
     module.add_function(wrap_pyfunction!(loads::set_friction, module)?)?;

@@ -57,7 +57,7 @@ impl Limit {
 }
 
 impl LimitEnd {
-    fn new(py: Python<'_>, assembly: &Assembly, end: &core::End) -> PyResult<Py<Self>> {
+    pub fn new(py: Python<'_>, assembly: &Assembly, end: &core::End) -> PyResult<Py<Self>> {
         let velocities = end.motion.iter().map(|(_, velocity)| velocity);
         let forces = (!end.forces.is_empty())
             .then(|| Py::new(py, ContactForces::new(assembly, end.forces.iter().map(|(_, force)| force))));

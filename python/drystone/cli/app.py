@@ -20,6 +20,7 @@ from drystone.cli.options import (
     File,
     Formulation,
     Joints,
+    LoadsOfMargin,
     Picture,
     Reuse,
     Split,
@@ -108,6 +109,34 @@ def limit(
     from drystone.cli import limit as command
 
     return command.run(scene, push, gravity, blocks, block, as_json, output, facets, cone.value)
+
+
+@app.command()
+def margin(
+    scene: File,
+    blocks: Blocks = None,
+    block: Block = None,
+    loads: Annotated[
+        LoadsOfMargin,
+        typer.Option(help="Permanent loads keep their direction, or turn as weights do."),
+    ] = LoadsOfMargin.stay,
+    tolerance: Annotated[
+        float, typer.Option(help="In space: how far the boundary may be off, of g.")
+    ] = 1e-3,
+    as_json: AsJson = False,
+    output: Picture = None,
+    facets: Facets = 8,
+    cone: Annotated[
+        ConeOfLimit,
+        typer.Option(help="In space: Coulomb's round cones, or pyramids within or around."),
+    ] = ConeOfLimit.round,
+) -> int:
+    """Which horizontal acceleration or tilt brings it down, and how much friction does it need?"""
+    from drystone.cli import margin as command
+
+    return command.run(
+        scene, blocks, block, loads.value, tolerance, as_json, output, facets, cone.value
+    )
 
 
 @app.command()
@@ -313,6 +342,7 @@ def import_(
     hull: Annotated[bool, typer.Option("--hull", help="Take the convex hulls of meshes.")] = False,
     joints: Annotated[
         Joints,
+        LoadsOfMargin,
         typer.Option(
             help="Joints of MJCF and URDF that turn or slide: an error, or welded (fixed)."
         ),

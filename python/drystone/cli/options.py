@@ -68,6 +68,13 @@ class ConeOfLimit(str, Enum):
     circumscribed = "circumscribed"
 
 
+class LoadsOfMargin(str, Enum):
+    """What permanent loads do under `margin`."""
+
+    stay = "stay"
+    turn = "turn"
+
+
 class ConeOfCheck(str, Enum):
     """Those of `check`."""
 

@@ -7,13 +7,14 @@ Figures are built without pyplot: no global state, no window, any thread. `save`
 from drystone.pictures.canvas import save, svg
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
 from drystone.pictures.graph import graph_figure
-from drystone.pictures.limits import limit_figure
+from drystone.pictures.limits import limit_figure, margin_figure
 from drystone.pictures.recording import frame_figure
 
 __all__ = [
     "frame_figure",
     "graph_figure",
     "limit_figure",
+    "margin_figure",
     "plan_figure",
     "save",
     "scene_figure",

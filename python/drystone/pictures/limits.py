@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from drystone.contact_force import ContactForces
     from drystone.limits import Limit
+    from drystone.margins import Margin
     from drystone.scene import Scene
 
 
@@ -37,6 +38,13 @@ class Mechanism:
 
     def __str__(self) -> str:
         return self.text
+
+
+def margin_figure(margin: Margin) -> Figure:
+    """The collapse under the least horizontal acceleration, with the forces before it."""
+    motion = margin.mechanism
+    shown = Mechanism(margin.scene, margin.names, margin.forces, motion, str(margin))
+    return moved_figure(shown, "m/s")
 
 
 def limit_figure(limit: Limit) -> Figure:

@@ -11,6 +11,7 @@ use super::{
     push::Push,
 };
 use crate::{
+    bounds::FRICTION,
     contact::{Contact, ContactSet},
     error::SceneError,
     geometry::{dot, length},
@@ -171,6 +172,15 @@ impl Assembly {
         let cones = Cones { bound: Bound::Circumscribed, ..self.cones };
         let none = vec![Vec::new(); self.blocks()];
         Self { cones, generators: Vec::new(), axes: Vec::new(), generators_on: none, ..self.clone() }.spanned()
+    }
+
+    /// The same contacts with a multiple of their friction.
+    pub(crate) fn with_friction(&self, multiple: f64) -> Self {
+        let none = vec![Vec::new(); self.blocks()];
+        let mut scaled = Self { generators: Vec::new(), axes: Vec::new(), generators_on: none, ..self.clone() };
+        let most = FRICTION.most;
+        scaled.contacts.contacts.iter_mut().for_each(|c| c.friction = (multiple * c.friction).min(most));
+        scaled.spanned()
     }
 
     /// The directions that span a contact's friction cone: its edges, and its normal where that is of use.

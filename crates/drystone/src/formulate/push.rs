@@ -57,6 +57,50 @@ impl Push {
         Ok(Self { wrenches })
     }
 
+    /// A wrench on each block, in its six components.
+    pub(crate) fn of_wrenches(assembly: &Assembly, on: impl Fn(usize) -> [f64; 6]) -> Self {
+        let picked = |block: usize| {
+            let wrench = on(block);
+            assembly.components().iter().map(move |&k| wrench[k])
+        };
+        Self { wrenches: (0..assembly.blocks()).flat_map(picked).collect() }
+    }
+
+    /// What would press every contact of these blocks with a unit force along its normal, the other way.
+    pub(crate) fn parting(assembly: &Assembly, blocks: &BlockSet) -> Self {
+        let mut wrenches = vec![[0.0; 6]; assembly.blocks()];
+        for contact in assembly.contacts() {
+            let there = contact.bodies.map(|body| assembly.block_of(body));
+            if there.iter().flatten().any(|&block| !blocks.contains(block)) {
+                continue;
+            }
+            // The contact's force on its second body is the normal; it takes up the opposite of the push.
+            for (side, sign) in [(0, -1.0), (1, 1.0)] {
+                let Some(block) = there[side] else { continue };
+                let wrench = assembly.body(block).wrench(contact.normal.map(|n| sign * n), contact.point);
+                (0..6).for_each(|k| wrenches[block][k] += wrench[k]);
+            }
+        }
+        Self::of_wrenches(assembly, |block| wrenches[block])
+    }
+
+    /// `a` times this and `b` times another.
+    pub(crate) fn plus(&self, a: f64, other: &Self, b: f64) -> Self {
+        let both = self.wrenches.iter().zip(&other.wrenches);
+        Self { wrenches: both.map(|(x, y)| a * x + b * y).collect() }
+    }
+
+    /// Weights sideways as weights: along gravity again, in the plane. The moments of weights are none.
+    pub(crate) fn turned(&self, assembly: &Assembly, right: [f64; 3]) -> Self {
+        let size = assembly.components().len();
+        let down = [right[1], -right[0], 0.0];
+        Self::of_wrenches(assembly, |block| {
+            let own = self.on(block, size);
+            let weight = own[0] * right[0] + own[1] * right[1];
+            [weight * down[0], weight * down[1], 0.0, 0.0, 0.0, 0.0]
+        })
+    }
+
     /// All wrenches.
     pub fn wrenches(&self) -> &[f64] {
         &self.wrenches

@@ -11,16 +11,23 @@
 
 mod ends;
 mod interior;
+mod margin;
+mod region;
+mod root;
 mod walk;
 
 pub use ends::{End, Limit};
+pub use margin::{Asked, Loads, Margin, least_friction, margin};
 
 use crate::{
     equilibrium::{Effort, equilibrium_while},
     error::SceneError,
     formulate::{Assembly, BlockSet, FrictionCone, Push},
 };
-use drystone_lcp::cone::{ConeSolver, Membership};
+use drystone_lcp::{
+    Status,
+    cone::{ConeSolver, Membership},
+};
 
 /// The interval for a sub-assembly of these blocks; a push acts on them only.
 pub fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Limit {
@@ -30,6 +37,14 @@ pub fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: Friction
     let found = equilibrium_while(assembly, blocks, Effort::OfInteriorPoint, &mut |_| true);
     let (found, solver) = found.expect("nobody stops it");
     limit_from(assembly, blocks, push, found, &solver)
+}
+
+/// The greatest factor alone; None if it stands for none, or there is no answer.
+pub(crate) fn greatest(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Option<f64> {
+    interior::greatest(assembly, blocks, push, cone).or_else(|| {
+        let found = limit(assembly, blocks, push, cone);
+        (found.status == Status::Solved).then_some(found.upper.factor)
+    })
 }
 
 /// [`limit`] with pyramids, from what an equilibrium solver with these blocks has found.

@@ -1,0 +1,56 @@
+"""`drystone margin`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from drystone.cli.errors import InputError
+from drystone.cli.inputs import listed, load_scene, picture_path, reporting_files
+from drystone.cli.output import console
+from drystone.json_text import write_json
+from drystone.margins import Margin, margin
+from drystone.tables import motion_table
+from drystone.text import shown
+
+
+def run(
+    scene_name: str,
+    blocks: str | None,
+    block: Sequence[str] | None,
+    loads: str,
+    tolerance: float,
+    as_json: bool,
+    output: Path | None,
+    facets: int,
+    cone: str,
+) -> int:
+    """0 if it has a margin, 1 if it falls, 2 if there is no answer."""
+    picture = picture_path(output)
+    scene = load_scene(scene_name)
+    names = None if blocks is None and not block else [*listed(blocks), *(block or ())]
+    found = margin(scene, names, loads=loads, tolerance=tolerance, facets=facets, cone=cone)
+    if picture is not None:
+        with reporting_files():
+            found.draw(picture)
+    if as_json:
+        write_json(found.to_dict(), sys.stdout)
+    else:
+        _print(found, picture)
+    if found.status != "solved":
+        raise InputError(f"{scene_name}: no answer ({found.status})")
+    return 0 if found.acceleration > 0.0 else 1
+
+
+def _print(found: Margin, picture: Path | None) -> None:
+    out = console()
+    solved = found.status == "solved"
+    colour = "yellow" if not solved else "green" if found.acceleration > 0.0 else "red"
+    out.print(str(found), style=f"bold {colour}")
+    if solved:
+        out.print(f"Stands with {found.friction:.6g} times its friction and more.")
+    if found.mechanism:
+        out.print(motion_table(found.mechanism, found.scene.dimension))
+    if picture is not None:
+        out.print(f"picture: {shown(str(picture))}", soft_wrap=True)

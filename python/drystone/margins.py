@@ -1,0 +1,190 @@
+"""How far a structure is from falling: sideways, tilted, and with less friction."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+from drystone import _core
+from drystone.cones import CONES, FACETS, ROUND, core_cones
+from drystone.limits import LimitEnd, finite, movable
+from drystone.loads import number
+from drystone.scene import Scene
+from drystone.verdict import counted, shorten
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from drystone.contact_force import ContactForces
+
+STAY, TURN = "stay", "turn"
+"""What permanent loads do while a structure is accelerated or tilted."""
+
+TOLERANCE = 1e-3
+"""How far the boundary may be off, in g, without a choice."""
+
+
+class Margin:
+    """The answer of `margin`."""
+
+    __slots__ = (
+        "_asked",
+        "_friction",
+        "acceleration",
+        "axes",
+        "boundary",
+        "direction",
+        "end",
+        "names",
+        "questions",
+        "scene",
+        "status",
+        "tilt",
+    )
+
+    status: str
+    """"solved", or why the solver stopped without an answer."""
+    acceleration: float
+    """The least horizontal acceleration over gravity that brings it down, over all directions;
+    infinite if none does, 0 if it falls anyway. In space the set of all that it bears is known to
+    `tolerance`: it falls with this one, and one smaller by that much it bears."""
+    direction: tuple[float, ...]
+    """The direction of the force that this is on every block, a unit vector (the ground is
+    accelerated the other way); zero if it falls anyway."""
+    tilt: float | None
+    """The least angle, rad, by which the ground is tilted when it falls. None in space with loads
+    that stay."""
+    end: LimitEnd
+    """Forces and mechanism there; see `LimitEnd`."""
+    axes: tuple[tuple[float, ...], tuple[float, ...]]
+    """The horizontal unit vectors along which `boundary` is given; the same twice in the plane."""
+    boundary: NDArray[np.float64]
+    """(n, 2): the accelerations over gravity that bring it down, around the origin; between these
+    points the boundary is at most `tolerance` outside of the straight line. Two points in the
+    plane. Nothing farther than 1e6 g is looked for."""
+    questions: int
+    """Load factors that were found for it."""
+    names: tuple[str, ...]
+    """The movable bodies that are there."""
+    scene: Scene
+    """The scene asked about."""
+
+    def __init__(
+        self,
+        core: _core.Margin,
+        names: tuple[str, ...],
+        scene: Scene,
+        asked: tuple[list[str] | None, tuple[int, str], bool],
+    ) -> None:
+        self.status = core.status
+        self.acceleration = core.acceleration
+        self.direction = core.direction
+        self.tilt = core.tilt
+        self.end = LimitEnd._of(core.end)
+        self.axes = core.axes
+        self.boundary = core.boundary
+        self.questions = core.questions
+        self.names, self.scene = names, scene
+        self._asked, self._friction = asked, None
+
+    _asked: tuple[list[str] | None, tuple[int, str], bool]
+    _friction: float | None
+
+    @property
+    def mechanism(self) -> dict[str, NDArray[np.float64]]:
+        """How it collapses; see `LimitEnd.mechanism`."""
+        return self.end.mechanism
+
+    @property
+    def forces(self) -> ContactForces | None:
+        """The contact forces that hold it to the last; None where it falls anyway."""
+        return self.end.forces if self.acceleration > 0.0 else None
+
+    @property
+    def friction(self) -> float:
+        """The least multiple of every coefficient of friction with which it stands, to 1e-9: below
+        1 for what stands; infinite if no friction helps. Computed when first read."""
+        if self._friction is None:
+            names, cones, round_cones = self._asked
+            self._friction = _core.least_friction(self.scene._core, names, cones, round_cones)
+        return self._friction
+
+    def __str__(self) -> str:
+        moving = f"{len(self.mechanism)} of {counted(len(self.names), 'block')}"
+        falls = f"{moving} ({shorten(self.mechanism)})"
+        if self.status != "solved":
+            return f"No answer ({self.status})."
+        if self.acceleration == 0.0:
+            return f"No margin, it falls: {falls}."
+        if not self.mechanism:
+            return "No horizontal acceleration brings it down."
+        way = ", ".join(f"{x:.3g}" for x in self.direction)
+        told = f"Falls at {self.acceleration:.6g} g towards ({way}): {falls}"
+        return told + ("." if self.tilt is None else f"; tilted by {self.tilt:.6g} rad.")
+
+    def __repr__(self) -> str:
+        return f"<Margin: {self}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything but the scene and the forces, in types that JSON knows."""
+        return {
+            "status": self.status,
+            "acceleration": finite(self.acceleration),
+            "direction": list(self.direction),
+            "tilt": self.tilt,
+            "friction": finite(self.friction),
+            "mechanism": self.end.to_dict()["mechanism"],
+            "axes": [list(axis) for axis in self.axes],
+            "boundary": self.boundary.tolist(),
+            "questions": self.questions,
+        }
+
+    def draw(self, path: str | PathLike[str]) -> None:
+        """Write a picture of the collapse (.svg or .png)."""
+        from drystone import pictures
+
+        pictures.save(pictures.margin_figure(self), path)
+
+
+def margin(
+    scene: Scene,
+    blocks: Iterable[str] | None = None,
+    *,
+    loads: str = STAY,
+    tolerance: float = TOLERANCE,
+    facets: int = FACETS,
+    cone: str = ROUND,
+) -> Margin:
+    """Find how far a structure is from falling.
+
+    That is the least horizontal acceleration that brings it down, in whatever direction; the tilt;
+    and the least friction with which it stands. `blocks`, `facets` and `cone` are as in `limit`,
+    and so is what "can stand" means. `loads` "stay" keeps the direction and size of permanent
+    loads; "turn" takes them for weights, which turn with gravity and are accelerated as masses are.
+    `tolerance` is how far the boundary may be off in space, in g: a structure in the plane has two
+    directions only, and exact answers.
+
+    Raises SceneError without gravity, for loads that are to turn and are no weights, and for what
+    `limit` does.
+
+    >>> import drystone as ds
+    >>> m = ds.margin(ds.scenes.column(11, friction=2.0))
+    >>> round(m.acceleration, 6), round(m.tilt, 6), m.friction
+    (0.1, 0.099669, 0.0)
+    """
+    if isinstance(blocks, str):
+        raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
+    if loads not in (STAY, TURN):
+        raise ValueError(f'unknown loads {loads!r}: give "{STAY}" or "{TURN}"')
+    off = number(tolerance, "tolerance")
+    if not 1e-9 <= off <= 1.0:
+        raise _core.SceneError(f"tolerance is {off}: it must be from 1e-9 to 1 (of g)")
+    names = None if blocks is None else list(blocks)
+    cones = core_cones(facets, CONES[0] if cone == ROUND else cone)
+    scene = copy.copy(scene)
+    round_cones = cone == ROUND
+    core = _core.margin(scene._core, names, loads == TURN, off, cones, round_cones)
+    return Margin(core, movable(scene, names), scene, (names, cones, round_cones))

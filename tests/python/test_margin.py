@@ -1,0 +1,172 @@
+"""How far a structure is from falling: closed forms, and verdicts on both sides."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import drystone as ds
+from conftest import Ran
+
+Cli = Callable[..., Ran]
+G = 9.81
+
+
+def block(mu: float, size: tuple[float, ...] = (1.0, 1.0)) -> ds.Scene:
+    if len(size) == 2:
+        scene = ds.Scene(friction=mu)
+        scene.add_box((0, -0.5), (9, 1), name="ground", fixed=True)
+        scene.add_box((0, size[1] / 2), size, name="block")
+        return scene
+    scene = ds.Scene(dimension=3, friction=mu)
+    scene.add_box((0, 0, -0.5), (9, 9, 1), name="ground", fixed=True)
+    scene.add_box((0, 0, size[2] / 2), size, name="block")
+    return scene
+
+
+@pytest.mark.parametrize(("mu", "least"), [(0.5, 0.5), (2.0, 1.0)])
+def test_a_block_slides_or_topples(mu: float, least: float) -> None:
+    m = ds.margin(block(mu))
+    assert m.status == "solved"
+    assert m.acceleration == pytest.approx(least, abs=1e-12)
+    assert m.tilt == pytest.approx(math.atan(least))
+    assert m.boundary[:, 0] == pytest.approx((-least, least))
+    assert m.friction == 0.0
+    assert set(m.mechanism) == {"block"}
+
+
+def test_the_weaker_side_counts() -> None:
+    scene = ds.Scene(friction=5.0)
+    scene.add_box((0, -0.5), (9, 1), name="ground", fixed=True)
+    scene.add_polygon([(0, 0), (3, 0), (0, 3)], name="wedge")  # centroid at (1, 1)
+    m = ds.margin(scene)
+    assert m.acceleration == pytest.approx(1.0)
+    assert m.direction == pytest.approx((-1.0, 0.0))
+    assert sorted(m.boundary[:, 0]) == pytest.approx([-1.0, 2.0])
+
+
+def test_round_friction_is_the_same_all_around() -> None:
+    m = ds.margin(block(0.4, (1, 1, 0.2)))
+    assert m.acceleration == pytest.approx(0.4, abs=1e-9)
+    assert np.hypot(*m.boundary.T) == pytest.approx(0.4, abs=1e-8)
+    # Between the points it is at most the tolerance outside: pi mu / n to the square, half of it.
+    assert 0.4 * (1 - math.cos(math.pi / len(m.boundary))) <= 1e-3
+    assert len(m.boundary) < 100
+
+
+def test_a_cuboid_topples_over_its_shorter_side() -> None:
+    """The accelerations that it bears are a rectangle, half-widths over half the height."""
+    m = ds.margin(block(9.0, (2.0, 1.0, 4.0)))
+    assert m.acceleration == pytest.approx(0.25)
+    assert np.abs(m.direction) == pytest.approx((0, 1, 0), abs=1e-9)
+    corners = np.abs(m.boundary).max(axis=0)
+    assert corners == pytest.approx((0.5, 0.25), abs=1e-6)
+    assert m.tilt == pytest.approx(math.atan(0.25))
+    turned = ds.Scene(dimension=3, friction=9.0)
+    turned.add_box((0, 0, -0.5), (9, 9, 1), name="ground", fixed=True)
+    half = math.radians(17) / 2
+    turned.add_box((0, 0, 2), (2, 1, 4), orientation=(math.cos(half), 0, 0, math.sin(half)))
+    m = ds.margin(turned, tolerance=1e-6)
+    assert m.acceleration == pytest.approx(0.25, abs=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_verdicts_change_at_the_boundary(seed: int) -> None:
+    scene = ds.scenes.random_stack(8, seed=seed, friction=0.6).extruded(0.5)
+    m = ds.margin(scene, tolerance=1e-3)
+    random = np.random.default_rng(seed)
+    if m.acceleration == 0.0:
+        assert not ds.check(scene).stable
+        return
+    toward = np.asarray(m.axes)
+    for angle in random.uniform(0, 2 * math.pi, 6):
+        way = math.cos(angle) * toward[0] + math.sin(angle) * toward[1]
+        lim = ds.limit(scene, gravity=tuple(G * way))
+        assert lim.factor >= m.acceleration - 2e-3
+    there = tuple(G * np.asarray(m.direction))
+    assert ds.limit(scene, gravity=there).factor <= m.acceleration + 1e-6
+
+
+def test_what_falls_has_no_margin_and_says_how() -> None:
+    for scene in (ds.scenes.slope(20, friction=0.2), ds.scenes.slope(20, friction=0.2).extruded()):
+        m = ds.margin(scene)
+        assert (m.acceleration, m.tilt) == (0.0, 0.0)
+        assert set(m.mechanism) == {"1"}
+        assert m.forces is None
+        assert m.friction == pytest.approx(math.tan(math.radians(20)) / 0.2, rel=1e-8)
+        assert "falls" in str(m)
+
+
+def test_friction_that_is_needed() -> None:
+    """A block on a slope needs its tangent; an arch what verdicts on either side say."""
+    scene = ds.scenes.slope(20, friction=0.9)
+    assert ds.margin(scene).friction == pytest.approx(math.tan(math.radians(20)) / 0.9, rel=1e-8)
+    arch = ds.scenes.arch(9, thickness=0.3, friction=0.7)
+    least = ds.margin(arch).friction
+    assert 0.0 < least < 1.0
+    for step, stands in ((1e-5, True), (-1e-5, False)):
+        scaled = ds.scenes.arch(9, thickness=0.3, friction=0.7 * least * (1 + step))
+        assert ds.check(scaled).stable == stands
+    hanging = ds.Scene(friction=0.5)
+    hanging.add_box((0, 5), (1, 1))
+    assert ds.margin(hanging).friction == math.inf
+
+
+def test_a_tilt_with_loads_that_stay_or_turn() -> None:
+    """A block with a weight P on its middle: as weights both lift the centre of mass alone; a force
+    that stays square to the ground holds it: W sin h/2 = (W cos + P) b/2."""
+    scene = block(9.0, (1.0, 3.0))
+    weight = scene.body("block").mass * G
+    scene.add_load("block", (0.0, -weight), at=(0.0, 3.0))
+    turn = ds.margin(scene, loads="turn")
+    # The whole weighs 2 W, at (1.5 + 3) / 2 of height.
+    assert turn.acceleration == pytest.approx(0.5 / 2.25)
+    assert turn.tilt == pytest.approx(math.atan(0.5 / 2.25))
+    stay = ds.margin(scene)
+    assert stay.acceleration == pytest.approx(2 * 0.5 / 1.5)
+    assert stay.tilt is not None
+    assert 1.5 * math.sin(stay.tilt) == pytest.approx(0.5 * (math.cos(stay.tilt) + 1.0))
+    space = scene.extruded(1.0)
+    assert ds.margin(space, loads="turn").acceleration == pytest.approx(0.5 / 2.25)
+    assert ds.margin(space).tilt is None
+    scene.add_load("block", (1.0, 0.0), name="wind")
+    with pytest.raises(ds.SceneError, match="wind"):
+        ds.margin(scene, loads="turn")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"blocks": "block"}, "list of names"),
+        ({"blocks": ["blok"]}, "block"),
+        ({"tolerance": 0.0}, "tolerance"),
+        ({"tolerance": math.nan}, "tolerance"),
+        ({"facets": 2}, "facets"),
+    ],
+)
+def test_what_is_wrong_is_said(wrong: dict[str, Any], says: str) -> None:
+    with pytest.raises(ds.SceneError, match=says):
+        ds.margin(block(0.5), **wrong)
+
+
+def test_other_wrong_input() -> None:
+    with pytest.raises(ValueError, match="fall"):
+        ds.margin(block(0.5), loads="fall")
+    with pytest.raises(ds.SceneError, match="no gravity"):
+        ds.margin(block(0.5).with_gravity((0, 0)))
+
+
+def test_the_command_line_and_a_picture(cli: Cli, tmp_path: Path) -> None:
+    ran = cli("margin", "column:11,friction=2", "-o", tmp_path / "a.svg")
+    assert (ran.status, ran.err) == (0, "")
+    assert "0.1 g" in ran.out
+    assert "m/s" in (tmp_path / "a.svg").read_text()
+    found = json.loads(cli("margin", "column:11,friction=2", "--json").out)
+    assert found["acceleration"] == pytest.approx(0.1)
+    assert cli("margin", "slope:20,friction=0.1").status == 1
