@@ -530,6 +530,7 @@ class StepRecord:
     seconds: float
     residual: float
     friction_error: float
+    exact: bool
     penetration: float
     projections: int
     collisions: int
@@ -559,6 +560,7 @@ class Run:
     step_seconds: NDArray[np.float64]
     residual: NDArray[np.float64]
     friction_error: NDArray[np.float64]
+    exact: NDArray[np.bool_]
     penetration: NDArray[np.float64]
     force_starts: NDArray[np.int64]
     force_bodies: NDArray[np.int64]

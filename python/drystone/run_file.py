@@ -83,6 +83,8 @@ def _unpacked(content: bytes) -> dict[str, Any]:
         about["formulation"] = "velocity"
         arrays["collisions"] = np.zeros(steps, dtype=np.int64)
         arrays["inconsistent"] = np.full((steps, 2), -1, dtype=np.int64)
+    if "exact" not in arrays and "friction_error" in arrays:  # written before it was kept
+        arrays["exact"] = arrays["friction_error"] <= 1e-8
     return {**_checked_about(about), **_checked_arrays(arrays, about["names"])}
 
 
@@ -126,7 +128,7 @@ def _checked_about(about: dict[str, Any]) -> dict[str, Any]:
         raise ValueError("its names are not those of its scene")
     words = {"status": ENDINGS, "reuse": REUSE, "formulation": FORMULATIONS}
     for field, known in words.items():
-        if about[field] not in known:
+        if about[field].partition(",")[0] not in known:
             raise ValueError(f"its {field} is {about[field]!r:.60}")
     if not (0 < about["dt"] < math.inf and 0 <= about["restitution"] <= 1):
         raise ValueError("its dt or its restitution is out of range")
@@ -153,6 +155,7 @@ def _checked_arrays(arrays: dict[str, NDArray[Any]], names: list[str]) -> dict[s
         "poses": (np.float64, (steps + 1, bodies, 3 if axes == 2 else 7)),
         "velocities": (np.float64, (steps + 1, bodies, 3 if axes == 2 else 6)),
         "motionless": (np.bool_, (steps, bodies)),
+        "exact": (np.bool_, (steps,)),
         "inconsistent": (np.int64, (steps, 2)),
         "force_starts": (np.int64, (starts,)),
         "force_bodies": (np.int64, (forces, 2)),

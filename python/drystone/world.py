@@ -35,6 +35,8 @@ class StepRecord:
     seconds: float
     residual: float
     friction_error: float
+    exact: bool
+    """Whether `friction_error` is within what is asked for: see `Run.exact`."""
     penetration: float
     projections: int
     collisions: int

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -134,3 +135,37 @@ def _moved(scene: ds.Scene) -> str:
     name = other.add_box((0, 0, 9), (1, 1, 1))
     scene._core = other._core
     return name
+
+
+@pytest.mark.parametrize("degrees", [0, 10, 22.5, 30])
+def test_a_plate_thrown_along_a_floor_stops_on_a_straight_line(degrees: float) -> None:
+    """Coulomb: it loses mu g of its speed a second, against its motion, whatever its direction."""
+    speed, friction, dt = 4.0, 0.5, 1 / 240
+    scene = ds.Scene(dimension=3, friction=friction)
+    scene.add_box((0, 0, -0.5), (100, 100, 1), name="floor", fixed=True)
+    scene.add_box((0, 0, 0.05), (1, 1, 0.1), name="plate")
+    way = np.array([np.cos(np.radians(degrees)), np.sin(np.radians(degrees))])
+    start = {"plate": (*(speed * way), 0, 0, 0, 0)}
+    run = ds.simulate(scene, steps=240, velocities=start)
+    x, y = run.poses[-1, 1, :2]
+    assert np.arctan2(y, x) == pytest.approx(np.radians(degrees), abs=1e-9)
+    # Each step goes as far as its speed at the end says: half a step's way less than v^2 / 2 mu g.
+    assert np.hypot(x, y) == pytest.approx(
+        speed**2 / (2 * friction * 9.81) - speed * dt / 2, abs=1e-3
+    )
+    assert (run.moving, run.not_exact) == ((), 0)
+
+
+def test_a_run_says_how_many_steps_are_not_exact(tower: ds.Scene) -> None:
+    run = ds.simulate(tower, steps=3, velocities={"cube2": (1, 0.3, 0, 0, 0, 1)})
+    assert (run.status, run.not_exact, run.exact.shape) == ("finished", 0, (3,))
+    assert run.to_dict()["steps_not_exact"] == 0
+    told = dataclasses.replace(
+        run,
+        status="finished, 1 step not exact",
+        exact=np.array([True, False, True]),
+        friction_error=np.array([0, 2e-6, 0]),
+    )
+    assert told.finished
+    assert told.not_exact == 1
+    assert "1 step not exact: up to 2e-06 m/s off Coulomb's law." in str(told)

@@ -14,8 +14,10 @@ use drystone_lcp::interrupt::poll;
 const ATTEMPTS: [(usize, f64); 4] = [(6, 1.0), (3, 10.0), (3, 0.1), (3, 1.0)];
 /// Newton steps of an attempt.
 const PATIENCE: usize = 100;
-/// An error so much smaller than the tolerance is not made smaller still.
+/// An error so much smaller than the tolerance is not made smaller still; and Newton steps that may be spent on getting there, each of
+/// which mostly doubles the digits.
 const ENOUGH: f64 = 1e-3;
+const POLISHING: usize = 3;
 
 /// Where a search is.
 struct Search<'a, const B: usize, const D: usize> {
@@ -74,18 +76,16 @@ pub(crate) fn solve<const B: usize, const D: usize>(
             newton = Newton::new(system);
         }
         let Some(newton) = &mut newton else { break };
-        let mut solved = done;
-        for _ in 0..PATIENCE {
-            if counts.newton_steps == most || !newton.step(system, state, softness) {
+        let mut left = if done { POLISHING } else { PATIENCE };
+        while left > 0 && search.error > ENOUGH * tolerance && counts.newton_steps < most {
+            if !newton.step(system, state, softness) {
                 break;
             }
             counts.newton_steps += 1;
             poll(64 * D * B * system.len());
-            // One step more than it takes: it doubles the digits.
-            let twice = solved;
-            solved = search.keep(state);
-            if twice || solved && search.error <= ENOUGH * tolerance {
-                break;
+            left -= 1;
+            if search.keep(state) {
+                left = left.min(POLISHING);
             }
         }
         state.clone_from(&search.best);

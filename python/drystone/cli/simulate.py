@@ -57,7 +57,7 @@ def run(
         print(json.dumps(made.to_dict(), indent=2))
     else:
         _print(made, output)
-    return {"finished": 0, "interrupted": INTERRUPTED}.get(made.status, 1)
+    return {"finished": 0, "interrupted": INTERRUPTED}.get(made.ending, 1)
 
 
 def _print(made: Run, output: Path | None) -> None:
@@ -82,6 +82,7 @@ def _facts(made: Run) -> Table:
     told.add_row("steps in which nothing moved", f"{settled} of {made.steps}")
     told.add_row("deepest overlap", f"{made.penetration.max():.2g} m")
     told.add_row("largest error of friction", f"{made.friction_error.max():.2g} m/s")
+    told.add_row("steps not exact", f"{made.not_exact} of {made.steps}")
     if made.formulation != "velocity":
         told.add_row("formulation", made.formulation)
         told.add_row("steps with collisions", f"{int((made.collisions > 0).sum())}")

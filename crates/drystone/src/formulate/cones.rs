@@ -88,7 +88,7 @@ impl Cones {
 const LEVEL: f64 = 1e-6;
 
 /// Two unit vectors square to the normal and to one another.
-pub(super) fn tangents(normal: [f64; 3], gravity: [f64; 3]) -> [[f64; 3]; 2] {
+pub(crate) fn tangents(normal: [f64; 3], gravity: [f64; 3]) -> [[f64; 3]; 2] {
     let along = |v: [f64; 3]| {
         let across = dot(v, normal);
         [0, 1, 2].map(|k| v[k] - across * normal[k])

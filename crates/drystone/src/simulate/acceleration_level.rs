@@ -23,6 +23,7 @@ use super::{
     coulomb,
     error::StepFailure,
     formulation::Law,
+    friction::FRICTION_ACCEPTED,
     islands::Islands,
     reuse::Reuse,
     sliding::{Carried, Found, Island, Mode},
@@ -30,7 +31,10 @@ use super::{
     velocity_level::{Velocity, VelocityLevel, normal_and_tangential},
     world::World,
 };
-use crate::{contact::ContactId, geometry::Polygon};
+use crate::{
+    contact::{ContactId, approach::shift},
+    geometry::Polygon,
+};
 use drystone_lcp::Counts;
 use std::{mem, time::Instant};
 
@@ -101,6 +105,8 @@ impl Law<Polygon> for AccelerationLevel {
         let mut motion = solve_others(world, contacts, &islands, (&free, &offsets), &found)?;
         motion.friction_error =
             coulomb::departure(contacts, &motion.velocities, &motion.impulses, &offsets, &world.inverse_mass);
+        let speed = free.iter().fold(0.0_f64, |fastest, v| shift::<Polygon>(v).max(fastest));
+        motion.exact = motion.friction_error <= FRICTION_ACCEPTED * speed.max(1.0);
         motion.inconsistent = inconsistent;
         motion.time += time;
         collided.add_to(&mut motion);
@@ -173,6 +179,7 @@ impl Collided {
             motion.add_work(collision.solves, collision.counts, collision.residual);
             motion.time += collision.time;
             motion.friction_error = motion.friction_error.max(collision.friction_error);
+            motion.exact &= collision.exact;
         }
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! - contacts: [`crate::contact::approach`], what touches or may touch within the step;
 //! - formulate: `velocity_level.rs`, one complementarity problem of impulses and velocities;
-//! - solve: `solve.rs` solves it until `friction.rs` finds Coulomb's law kept; `reuse.rs` says what is taken over;
+//! - solve: in space `round.rs`, on round cones; else `solve.rs` solves it until `friction.rs` finds Coulomb's law kept; `reuse.rs` says what is taken over;
 //! - find motionless: `motionless.rs`, whose blocks keep their place bit for bit;
 //! - integrate: `integrate.rs`, and `project.rs` where blocks came to overlap.
 //!
@@ -31,6 +31,7 @@ mod origin;
 mod project;
 mod pushes;
 mod reuse;
+mod round;
 mod run;
 mod settled;
 mod sliding;

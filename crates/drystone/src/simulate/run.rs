@@ -98,6 +98,11 @@ pub fn run<S: Moving>(
 }
 
 impl<S: Moving> Run<S> {
+    /// Steps that are further from Coulomb's law than is asked for ([`StepRecord::exact`]).
+    pub fn not_exact(&self) -> usize {
+        self.records.iter().filter(|record| !record.exact).count()
+    }
+
     fn take_down(&mut self, world: &World<S>) {
         self.poses.push(world.poses().collect());
         self.velocities.push(world.velocities());

@@ -23,6 +23,7 @@ pub(super) struct Settled<S: Moving> {
     bearing: usize,
     residual: f64,
     friction_error: f64,
+    exact: bool,
 }
 
 fn of_another_finder() -> u64 {
@@ -43,6 +44,7 @@ impl<S: Moving> World<S> {
             bearing,
             residual: record.residual,
             friction_error: record.friction_error,
+            exact: record.exact,
         })
     }
 
@@ -71,6 +73,7 @@ impl<S: Moving> World<S> {
             time: begun.elapsed(),
             residual: settled.residual,
             friction_error: settled.friction_error,
+            exact: settled.exact,
             collisions: 0,
             inconsistent: None,
             penetration: self.finder.penetration(),

@@ -24,7 +24,7 @@ use drystone_lcp::sealed::{self, Seal, SealError};
 use serde::{Deserialize, Serialize};
 
 /// 1 and 2 were JSON, without a checksum.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const IN_PLANE: Seal = Seal { kind: *b"DS-WORL2", version: VERSION };
 const IN_SPACE: Seal = Seal { kind: *b"DS-WORL3", version: VERSION };
 

@@ -22,6 +22,8 @@ pub struct Motion<S: Moving = Polygon> {
     pub impulses: Vec<S::Vector>,
     /// Largest error of Coulomb's law, m/s.
     pub friction_error: f64,
+    /// Whether that is within the tolerance.
+    pub exact: bool,
     pub residual: f64,
     pub solves: usize,
     pub rows_reused: usize,
@@ -68,6 +70,9 @@ impl<S: Moving> World<S> {
         if let Some(motion) = self.stand(&given, &mut work) {
             return Ok(motion);
         }
+        if let Some(motion) = self.solve_on_round_cones(&given) {
+            return Ok(Motion { counts: motion.counts + work, ..motion });
+        }
         let answer = self.solve_coulomb(&given).or_else(|_| {
             self.route.restart();
             self.before = None;
@@ -93,7 +98,8 @@ impl<S: Moving> World<S> {
             let trial = self.try_sliding(given, &assumed, &mut time)?;
             solves += 1;
             if acceptable(trial.error, solves, speed) || solves > MOST_SOLVES {
-                return Ok(self.motion(given.problem, trial, solves, rows_reused, time));
+                let exact = acceptable(trial.error, MOST_SOLVES, speed);
+                return Ok(Motion { exact, ..self.motion(given.problem, trial, solves, rows_reused, time) });
             }
             if trial.error < best.0 {
                 best = (trial.error, assumed.clone());
@@ -171,6 +177,7 @@ impl<S: Moving> World<S> {
             sliding,
             impulses: (0..problem.approaches().len()).map(impulse).collect(),
             friction_error: error,
+            exact: false,
             residual: solver.residual(),
             solves,
             rows_reused,

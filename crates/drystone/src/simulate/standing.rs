@@ -72,6 +72,7 @@ impl<S: Moving> World<S> {
             sliding: none,
             impulses: (0..contacts.approaches().len()).map(|k| contacts.impulse(k, |row| p[row])).collect(),
             friction_error,
+            exact: true,
             residual,
             solves: 1,
             rows_reused: 0,

@@ -47,6 +47,9 @@ pub struct StepRecord {
     /// Largest speed, m/s, at which a contact that bears parts or closes against Coulomb's law: what is left of the fixed
     /// point's iteration, at most [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED), relative above 1 m/s, unless it did not converge.
     pub friction_error: f64,
+    /// Whether that is within what is asked for: 1e-8 of the fastest contact's speed and of what gravity gives in a step on round cones,
+    /// [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED) on pyramids and in the plane. Where it is not, the step was made with the best that was found.
+    pub exact: bool,
     /// Contacts at which bodies collided, so that impulses came before the forces; acceleration level only.
     pub collisions: usize,
     /// Where no forces were found, so that impulses took their place; acceleration level only.
@@ -101,6 +104,7 @@ impl<S: Moving> World<S> {
             time: begun.elapsed(),
             residual: motion.residual,
             friction_error: motion.friction_error,
+            exact: motion.exact,
             collisions: motion.collisions,
             inconsistent: motion.inconsistent,
             penetration: self.finder.penetration(),
@@ -158,6 +162,7 @@ impl<S: Moving> World<S> {
             approaches.sort_by_key(|approach| approach.id);
             let next = self.problem_of(approaches);
             self.sliding.clone_from(&motion.sliding);
+            self.impulses.clone_from(&motion.impulses);
             self.before = Some(std::mem::replace(&mut problem, next));
             let earlier = std::mem::replace(&mut motion, self.law.motion(self, &problem, free)?);
             motion.add_earlier(&earlier);

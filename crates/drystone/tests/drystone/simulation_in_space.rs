@@ -55,22 +55,21 @@ fn a_block_slides_down_with_coulombs_acceleration() {
     }
 }
 
-/// A block thrown along an edge of the friction pyramids loses mu g of speed a second; between two edges of eight it
-/// loses less, by cos(22.5 degrees) at most; then it stands to the bit.
+/// A block thrown in any direction loses mu g of speed a second on a straight line, for the cone is round; then it stands to the bit.
 #[test]
 fn a_thrown_block_comes_to_rest_and_stays() {
     let (mu, speed, dt) = (0.4, 3.0, 1.0 / 240.0);
-    let between = (std::f64::consts::PI / 8.0).cos();
-    for (degrees, share) in [(0.0_f64, 1.0), (45.0, 1.0), (22.5, between)] {
+    for degrees in [0.0_f64, 10.0, 22.5, 30.0, 45.0] {
         let mut scene = on_ground(mu);
         scene.add_cuboid(at([0.0, 0.0, 0.25]), [2.0, 1.0, 0.5], named("block")).unwrap();
         let mut world = world(scene);
         let (sin, cos) = degrees.to_radians().sin_cos();
         world.set_velocity("block", [speed * cos, speed * sin, 0.0, 0.0, 0.0, 0.0]).unwrap();
-        let stops = speed / (mu * G * share);
+        let stops = speed / (mu * G);
         steps(&mut world, (stops / dt) as usize);
         let [x, y, ..] = place(&world, 1);
         close(x.hypot(y), 0.5 * speed * stops, speed * dt);
+        close(y.atan2(x), degrees.to_radians(), 1e-9);
         steps(&mut world, 3);
         let rest = place(&world, 1);
         steps(&mut world, 100);
@@ -129,7 +128,7 @@ fn extruded_scenes_move_as_in_the_plane() {
         ("toppling", scenes::slope(40.0, 3.0, 0.4, 1.0).unwrap(), 100, 1e-7),
         ("fall7", scenes::fall7(0.5).unwrap(), 240, 1e-4),
         ("falling column", scenes::falling_column(0.2).unwrap(), 120, 1e-4),
-        ("three segments", scenes::three_segments(0.3).unwrap(), 120, 1e-5),
+        ("three segments", scenes::three_segments(0.3).unwrap(), 120, 1e-4),
     ];
     for (name, scene, count, tolerance) in scenes {
         let mut solid = world(scenes::extruded(&scene, 0.8).unwrap());
@@ -244,7 +243,7 @@ fn random_scenes_keep_the_rules() {
         for step in 0..200 {
             let context = || format!("seed {seed}, step {step}, friction {friction}, dt {dt}");
             let record = world.step().unwrap_or_else(|failure| panic!("{}: {failure}", context()));
-            assert!(record.residual <= 1e-9, "{}: {:e}", context(), record.residual);
+            assert!(record.residual <= if record.exact { 1e-8 } else { 1e-4 }, "{}: {:e}", context(), record.residual);
             let now = world.energy();
             assert!(now <= energy + 1e-12 * energy.abs().max(1.0), "{}: {energy} to {now}", context());
             energy = now;
