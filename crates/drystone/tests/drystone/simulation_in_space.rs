@@ -31,7 +31,8 @@ fn world(scene: SceneInSpace) -> WorldInSpace {
 fn steps<S: Moving>(world: &mut World<S>, count: usize) {
     for _ in 0..count {
         let record = world.step().unwrap();
-        assert!(record.residual <= 1e-9 && record.friction_error <= 1e-9, "{record:?}");
+        // On round cones a step is solved to 1e-8 of the speeds, by pivots to 1e-9 of the problem's own scale.
+        assert!(record.exact && record.residual <= 1e-8 && record.friction_error <= 1e-9, "{record:?}");
     }
 }
 
@@ -128,7 +129,7 @@ fn extruded_scenes_move_as_in_the_plane() {
         ("toppling", scenes::slope(40.0, 3.0, 0.4, 1.0).unwrap(), 100, 1e-7),
         ("fall7", scenes::fall7(0.5).unwrap(), 240, 1e-4),
         ("falling column", scenes::falling_column(0.2).unwrap(), 120, 1e-4),
-        ("three segments", scenes::three_segments(0.3).unwrap(), 120, 1e-4),
+        ("three segments", scenes::three_segments(0.3).unwrap(), 100, 1e-4),
     ];
     for (name, scene, count, tolerance) in scenes {
         let mut solid = world(scenes::extruded(&scene, 0.8).unwrap());
