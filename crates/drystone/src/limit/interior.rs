@@ -17,7 +17,7 @@ use drystone_lcp::{Counts, Status};
 /// one another.
 const APART: f64 = 1e-8;
 /// What the forces may leave of a load: the factor is wrong by as much at most. On the border of round cones, where blocks slide, it
-/// is 1e-10 for ten blocks and 1e-9 for a hundred; between edges 1e-14.
+/// was 1e-10 for 14 blocks and more than 1e-9 for a wall of 50; between edges 1e-14. The bound of the mechanism is apart.
 const IMBALANCE: f64 = 1e-7;
 
 pub(super) fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Limit {
