@@ -283,7 +283,8 @@ class ContactForces:
 class Forces:
     """The contact forces of a verdict, computed when asked for."""
 
-    def canonical(self) -> ContactForces: ...
+    def canonical(self) -> ContactForces | None:
+        """None if they are not found to the accuracy that a verdict needs."""
     def any(self) -> ContactForces:
         """Those that the verdict was found with."""
     def at_borders(self) -> bool:

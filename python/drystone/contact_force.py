@@ -84,14 +84,18 @@ class ContactForces(Sequence[ContactForce]):
         found, source = self._found, self._source
         if found is None:
             assert source is not None
-            found = source.any() if self._kind == ANY else source.canonical()
+            found = None if self._kind == ANY else source.canonical()
+            if found is None:
+                self._kind, found = ANY, source.any()
             self._found = found
             self._source = None  # which holds the assembly
         return found
 
     @property
     def kind(self) -> str:
-        """ "canonical", or "any" of those that a verdict was found with."""
+        """ "canonical", or "any": those that a verdict was found with. So also where the canonical
+        ones are asked for, but cannot be found to the accuracy that a verdict needs."""
+        _ = self._core  # it is not known before
         return self._kind
 
     def as_found(self) -> ContactForces:

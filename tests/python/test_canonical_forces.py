@@ -328,3 +328,22 @@ def test_the_command_line_computes_them_of_scenes_that_are_not_too_large(
     assert [kind(), kind("--forces", "any")] == ["canonical", "any"]
     monkeypatch.setattr("drystone.cli.check.MOST_POINTS", 10)
     assert [kind(), kind("--forces", "canonical")] == ["any", "canonical"]
+
+
+def test_the_kind_says_where_they_are_not_found() -> None:
+    verdict = ds.check(ds.scenes.wall(3, 3), forces="any")
+    found = verdict.forces._core
+
+    class Unfound:
+        """Of a structure for which they cannot be found."""
+
+        def canonical(self) -> None:
+            return None
+
+        def any(self) -> object:
+            return found
+
+    forces = ds.ContactForces(Unfound(), "canonical")  # type: ignore[arg-type]
+    assert forces.kind == "any"
+    assert forces == verdict.forces
+    assert ds.check(ds.scenes.wall(3, 3)).forces.kind == "canonical"

@@ -16,8 +16,8 @@ const ATTEMPTS: [(usize, f64); 4] = [(6, 1.0), (3, 10.0), (3, 0.1), (3, 1.0)];
 const PATIENCE: usize = 100;
 /// An error so much smaller than the tolerance is not made smaller still; and Newton steps that may be spent on getting there, each of
 /// which mostly doubles the digits.
-const ENOUGH: f64 = 1e-3;
-const POLISHING: usize = 3;
+const ENOUGH: f64 = 1e-5;
+const POLISHING: usize = 5;
 
 /// Where a search is.
 struct Search<'a, const B: usize, const D: usize> {

@@ -35,18 +35,17 @@ const NONE: f64 = 1e-12;
 ///
 /// What stands has those within Coulomb's cones, whatever pyramids within them the verdict was found on; pyramids around the
 /// cones are kept. Of what falls they are those of least norm, within `cone`, under which it falls with the accelerations that
-/// the verdict's own forces give. Where these are not found to the accuracy that a verdict needs, which may be so where it is
-/// borderline or nearly, they are the verdict's own.
-pub fn canonical_forces(assembly: &Assembly, cone: FrictionCone, verdict: &Verdict) -> Vec<ContactForce> {
+/// the verdict's own forces give. None where these are not found to the accuracy that a verdict needs, which may be so where it
+/// is borderline or nearly.
+pub fn canonical_forces(assembly: &Assembly, cone: FrictionCone, verdict: &Verdict) -> Option<Vec<ContactForce>> {
     let (mut blocks, none) = (BlockSet::empty(assembly.blocks()), BlockSet::empty(assembly.blocks()));
     verdict.checked.iter().filter_map(|&body| assembly.block_of(body)).for_each(|block| blocks.insert(block));
-    let found = if verdict.stable {
+    if verdict.stable {
         holding_up(assembly, &blocks, &none, cone)
     } else {
         let at = |(contact, force): &(Contact, ContactForce)| (contact.bodies, contact.point, force.force);
         as_strong_as(assembly, &blocks, cone, verdict.forces.iter().map(at))
-    };
-    found.unwrap_or_else(|| verdict.forces.iter().map(|(_, force)| *force).collect())
+    }
 }
 
 /// The canonical forces that hold blocks up of which some are held by hands, if there are any; within Coulomb's cones unless the

@@ -86,9 +86,9 @@ impl Forces {
 
 #[pymethods]
 impl Forces {
-    fn canonical(&self, py: Python<'_>) -> PyResult<ContactForces> {
+    fn canonical(&self, py: Python<'_>) -> PyResult<Option<ContactForces>> {
         let forces = interruptible(py, || canonical_forces(&self.assembly, self.cone, &self.verdict))?;
-        Ok(ContactForces::new(&self.assembly, forces.iter()))
+        Ok(forces.map(|forces| ContactForces::new(&self.assembly, forces.iter())))
     }
 
     fn any(&self) -> ContactForces {

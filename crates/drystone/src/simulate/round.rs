@@ -25,18 +25,26 @@ const COARSE: f64 = 1e-4;
 /// A quarter of the blocks are many.
 const MANY: usize = 4;
 
+/// A block slower than this share of what gravity gives it in a step comes to rest, or settles by rounding of its place: pivots end that
+/// to the bit.
+const SLOW: f64 = 1e-3;
+
 /// Newton steps in one island: where a heap needs more, more seldom help.
 const NEWTON_STEPS: usize = 200;
 
 impl<S: Moving> World<S> {
     /// Whether a step is solved on round cones. Not in the plane, where pivots are exact, nor for the modes of reuse that are about
     /// pivots. Where few blocks move amid many that rest, pivots with the factor of the step before are ten times faster; so they go on
-    /// until [`MANY`] move, and have no factor to go on with after that.
+    /// until [`MANY`] move, and have no factor to go on with after that. Nor where all are [`SLOW`].
     fn on_round_cones(&self) -> bool {
         if axes::<S>() != 3 || self.options.reuse != Reuse::Full {
             return false;
         }
         let count = |of: &[S::Velocity]| of.iter().filter(|x| !is_zero(*x)).count();
+        let slow = SLOW * norm(self.scene.gravity().as_ref()) * self.options.dt;
+        if self.velocities.iter().all(|velocity| norm(velocity.as_ref()) <= slow) {
+            return false;
+        }
         let (movable, moving) = (count(&self.inverse_mass), count(&self.velocities));
         let kept = self.route.last().is_some() || self.stood.is_some();
         (self.before.is_some() && !kept) || (moving > 0 && MANY * moving >= movable)
@@ -44,7 +52,9 @@ impl<S: Moving> World<S> {
 
     /// Solves a step on round cones. None where it is left to pivots, or nothing near the law was found.
     pub(super) fn solve_on_round_cones(&mut self, given: &Given<'_, S>) -> Option<Motion<S>> {
-        if !self.on_round_cones() {
+        let approaches = given.problem.approaches();
+        // Without friction cones are lines, and pivots exact.
+        if !self.on_round_cones() || approaches.iter().all(|approach| approach.friction == 0.0) {
             return None;
         }
         let begun = Instant::now();
@@ -57,7 +67,6 @@ impl<S: Moving> World<S> {
                 bodies.free.extend(free.as_ref());
             }
         }
-        let approaches = given.problem.approaches();
         let frames: Vec<[S::Vector; 3]> = approaches.iter().map(|approach| frame::<S>(&approach.normal)).collect();
         bodies.contacts =
             (0..approaches.len()).map(|k| contact::<S>(&approaches[k], given.offsets[k], &frames[k], &place)).collect();
