@@ -75,9 +75,9 @@ def test_forces_are_a_sequence() -> None:
 
 
 def test_bytes_that_are_no_forces_are_an_error() -> None:
-    _, (state,) = ds.check(ds.scenes.column(3)).forces.__reduce__()
+    _, (state, kind) = ds.check(ds.scenes.column(3)).forces.__reduce__()
     with pytest.raises(ds.DrystoneError, match="no contact forces"):
-        ds.ContactForces._again(state[: len(state) // 2])
+        ds.ContactForces._again(state[: len(state) // 2], kind)
 
 
 def test_json_in_pieces_is_the_same_as_the_dictionary() -> None:
