@@ -27,6 +27,7 @@ import numpy as np
 
 from drystone import _core
 from drystone._core import ContactError
+from drystone.arrays import floats, vector
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -101,7 +102,7 @@ def solve(
     Raises ContactError for shapes that do not match, entries that are not finite, and an M that is
     not symmetric positive definite. A problem that was not solved is a status, not an error.
     """
-    free = _vector(free, "free")
+    free = vector(free, "free", ContactError)
     mass = _mass(M, free.size)
     jacobian = _matrix(J, "J")
     if jacobian.shape[1] != free.size:
@@ -109,8 +110,8 @@ def solve(
             f"J has {jacobian.shape[1]} columns, but free has {free.size} entries: "
             "give one of each for every unknown"
         )
-    laws = {"mu": _floats(mu, "mu"), "offset": _floats(offset, "offset")}
-    laws["restitution"] = _floats(restitution, "restitution")
+    laws = {"mu": floats(mu, "mu", ContactError), "offset": floats(offset, "offset", ContactError)}
+    laws["restitution"] = floats(restitution, "restitution", ContactError)
     d = _dimension(jacobian.shape[0], laws, dimension)
     contacts = jacobian.shape[0] // d
     friction, offsets, shares = (_each(law, name, contacts) for name, law in laws.items())
@@ -128,7 +129,7 @@ def solve(
         friction,
         free,
         offsets,
-        None if begin is None else _vector(begin, "start"),
+        None if begin is None else vector(begin, "start", ContactError),
         tolerance,
         scale,
     )
@@ -190,7 +191,7 @@ def _mass(M: Any, n: int) -> sparse.csc_array:
     if sparse.issparse(M):
         mass = _matrix(M, "M")
     else:
-        array = _floats(M, "M")
+        array = floats(M, "M", ContactError)
         if array.ndim == 1:
             diagonal = sparse.dia_array((array[None, :], [0]), shape=(array.size, array.size))
             mass = sparse.csr_array(diagonal)
@@ -211,7 +212,7 @@ def _matrix(matrix: Any, what: str) -> sparse.csr_array:
     from scipy import sparse
 
     if not sparse.issparse(matrix):
-        matrix = _floats(matrix, what)
+        matrix = floats(matrix, what, ContactError)
     if matrix.ndim != 2:
         raise ContactError(f"{what} must be a matrix, not of shape {matrix.shape}")
     if matrix.dtype.kind not in "fiub":
@@ -225,20 +226,3 @@ def _compressed(
     matrix: Any,
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
     return matrix.indptr.astype(np.int64), matrix.indices.astype(np.int64), matrix.data
-
-
-def _vector(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    vector = _floats(value, what)
-    if vector.ndim != 1:
-        raise ContactError(f"{what} must be a vector, not of shape {vector.shape}")
-    return vector
-
-
-def _floats(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    if np.iscomplexobj(value):
-        raise ContactError(f"{what} must hold real numbers, not complex ones")
-    try:
-        floats = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise ContactError(f"{what} must hold real numbers, not {value!r:.60}") from None
-    return np.ascontiguousarray(floats) if floats.ndim else floats

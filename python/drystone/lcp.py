@@ -27,6 +27,7 @@ import numpy as np
 
 from drystone import _core
 from drystone._core import LcpError, StartError
+from drystone.arrays import floats, vector
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -398,16 +399,9 @@ def _columns(matrix: Any, what: str) -> sparse.csc_array:
 
 
 def _vector(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    vector = _floats(value, what)
-    if vector.ndim != 1:
-        raise LcpError(f"{what} must be a vector, not of shape {vector.shape}")
-    return vector
+    return vector(_floats(value, what), what, LcpError)
 
 
 def _floats(value: ArrayLike, what: str) -> NDArray[np.float64]:
-    if np.iscomplexobj(value):
-        raise LcpError(f"{what} must hold real numbers, not complex ones")
-    try:
-        return np.ascontiguousarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise LcpError(f"{what} must hold real numbers, not {value!r:.60}") from None
+    """One number is an array of one."""
+    return np.ascontiguousarray(floats(value, what, LcpError))

@@ -36,6 +36,7 @@ pub mod plan;
 mod proof;
 pub mod scene;
 mod scene_in_space;
+mod scene_loads;
 pub mod scenes;
 pub mod simulate;
 pub mod structure;

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import listed, load_scene, picture_path, reporting_files
+from drystone.cli.inputs import chosen, draw, load_scene, picture_path
 from drystone.cli.output import console
 from drystone.contact_force import ANY, CANONICAL
 from drystone.tables import verdict_table
@@ -33,13 +33,11 @@ def run(
     """0 if it stands, 1 if not, 2 if there is no verdict."""
     picture = picture_path(output)
     scene = load_scene(scene_name)
-    names = None if blocks is None and not block else [*listed(blocks), *(block or ())]
+    names = chosen(blocks, block)
     verdict = check(scene, names, facets=facets, cone=cone, forces=forces or CANONICAL)
     if forces is None and len(verdict.forces) > MOST_POINTS:
         verdict = replace(verdict, forces=verdict.forces.as_found())
-    if picture is not None:
-        with reporting_files():
-            verdict.draw(picture)
+    draw(verdict, picture)
     if as_json:
         verdict.write_json(sys.stdout)
     else:

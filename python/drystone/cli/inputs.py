@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from drystone.cli.errors import InputError
 
@@ -61,6 +62,24 @@ def built(builder: Callable[..., Scene], text: str) -> Scene:
 def listed(text: str | None) -> list[str]:
     """Names separated by commas."""
     return [name.strip() for name in (text or "").split(",") if name.strip()]
+
+
+def chosen(blocks: str | None, block: Sequence[str] | None) -> list[str] | None:
+    """The names given by --blocks and --block; None if there is neither."""
+    return None if blocks is None and not block else [*listed(blocks), *(block or ())]
+
+
+class Drawn(Protocol):
+    """What can be drawn."""
+
+    def draw(self, path: str | PathLike[str]) -> None: ...
+
+
+def draw(answer: Drawn, picture: Path | None) -> None:
+    """Its picture, if one was asked for."""
+    if picture is not None:
+        with reporting_files():
+            answer.draw(picture)
 
 
 def python_name(name: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import listed, load_scene, picture_path, reporting_files
+from drystone.cli.inputs import chosen, draw, load_scene, picture_path
 from drystone.cli.output import console
 from drystone.json_text import write_json
 from drystone.limits import Limit, limit
@@ -33,7 +33,7 @@ def run(
     """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
     picture = picture_path(output)
     scene = load_scene(scene_name)
-    names = None if blocks is None and not block else [*listed(blocks), *(block or ())]
+    names = chosen(blocks, block)
     found = limit(
         scene,
         None if not push else dict(_push(text) for text in push),
@@ -42,9 +42,7 @@ def run(
         facets=facets,
         cone=cone,
     )
-    if picture is not None:
-        with reporting_files():
-            found.draw(picture)
+    draw(found, picture)
     if as_json:
         write_json(found.to_dict(), sys.stdout)
     else:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import listed, load_scene, picture_path, reporting_files
+from drystone.cli.inputs import chosen, draw, load_scene, picture_path
 from drystone.cli.output import console
 from drystone.json_text import write_json
 from drystone.margins import Margin, margin
@@ -29,11 +29,9 @@ def run(
     """0 if it has a margin, 1 if it falls, 2 if there is no answer."""
     picture = picture_path(output)
     scene = load_scene(scene_name)
-    names = None if blocks is None and not block else [*listed(blocks), *(block or ())]
+    names = chosen(blocks, block)
     found = margin(scene, names, loads=loads, tolerance=tolerance, facets=facets, cone=cone)
-    if picture is not None:
-        with reporting_files():
-            found.draw(picture)
+    draw(found, picture)
     if as_json:
         write_json(found.to_dict(), sys.stdout)
     else:

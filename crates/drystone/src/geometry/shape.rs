@@ -1,29 +1,10 @@
 //! What a scene asks of the shape of a block, in the plane and in space.
 
-use super::{Vector3, vectors::plus_times};
-use serde::{Serialize, de::DeserializeOwned};
+use super::{
+    Vector3,
+    vectors::{Numbers, plus_times},
+};
 use std::fmt::Debug;
-
-/// A fixed count of numbers: `[f64; 2]`, `[f64; 3]`, `[f64; 6]`.
-pub trait Numbers:
-    Copy + Debug + Default + PartialEq + AsRef<[f64]> + AsMut<[f64]> + Serialize + DeserializeOwned + Send + Sync + 'static
-{
-}
-
-impl<T> Numbers for T where
-    T: Copy
-        + Debug
-        + Default
-        + PartialEq
-        + AsRef<[f64]>
-        + AsMut<[f64]>
-        + Serialize
-        + DeserializeOwned
-        + Send
-        + Sync
-        + 'static
-{
-}
 
 /// A plane part of a block's surface.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,6 +1,28 @@
 //! Vectors as they stand in contacts, wrenches and directions: of three numbers, and of as many as the dimension asks for.
 
-use super::shape::Numbers;
+use serde::{Serialize, de::DeserializeOwned};
+use std::fmt::Debug;
+
+/// A fixed count of numbers: `[f64; 2]`, `[f64; 3]`, `[f64; 6]`.
+pub trait Numbers:
+    Copy + Debug + Default + PartialEq + AsRef<[f64]> + AsMut<[f64]> + Serialize + DeserializeOwned + Send + Sync + 'static
+{
+}
+
+impl<T> Numbers for T where
+    T: Copy
+        + Debug
+        + Default
+        + PartialEq
+        + AsRef<[f64]>
+        + AsMut<[f64]>
+        + Serialize
+        + DeserializeOwned
+        + Send
+        + Sync
+        + 'static
+{
+}
 
 /// A cross product this short, of unit vectors, is that of parallel ones.
 const PARALLEL: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! One JSON object of a scene file, read field by field with errors that say where.
 
-use crate::error::FileError;
+use crate::error::{FileError, SceneError};
 use crate::suggest::nearest;
 use serde_json::{Map, Value};
 
@@ -80,6 +80,12 @@ impl<'a> Fields<'a> {
         };
         let expected = "a list of three numbers of vertices each: [[0, 1, 2], ...]";
         self.read(field, expected, |value| value.as_array()?.iter().map(triple).collect())
+    }
+
+    /// What a scene says against it, with the place in the file.
+    pub fn invalid(&self, error: SceneError) -> SceneError {
+        let (file, place) = (self.file.to_owned(), self.place.clone());
+        FileError::Invalid { file, place, error: Box::new(error) }.into()
     }
 
     /// An error for a value that cannot be where it is.

@@ -76,7 +76,7 @@ pub(super) fn add_loads<S: Stored>(
             _ => load.numbers("moment")?.unwrap_or_default(),
         };
         let added = scene.push_load(index, load.string("name")?, force, at, moment);
-        added.map_err(|error| super::read::invalid(&load, error))?;
+        added.map_err(|error| load.invalid(error))?;
     }
     Ok(())
 }
@@ -93,7 +93,7 @@ pub(super) fn add_pairs<S: Stored>(scene: &mut SceneOf<S>, head: &Fields) -> Res
         let names = pair.required("bodies")?;
         let (a, b) = two_names(&pair, names)?;
         let friction = pair.number("friction")?.ok_or_else(|| pair.missing("\"friction\""))?;
-        scene.set_friction(a, b, friction).map_err(|error| super::read::invalid(&pair, error))?;
+        scene.set_friction(a, b, friction).map_err(|error| pair.invalid(error))?;
     }
     Ok(())
 }

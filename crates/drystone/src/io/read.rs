@@ -38,9 +38,9 @@ fn read<S: Stored>(file: &str, document: &Value) -> Result<SceneOf<S>, SceneErro
     let head = Fields::of(file, "the scene".to_owned(), document, &SCENE_FIELDS)?;
     let gravity = S::vector(&head, "gravity")?.ok_or_else(|| head.missing("\"gravity\""))?;
     let friction = head.number("friction")?.ok_or_else(|| head.missing("\"friction\""))?;
-    let mut scene = SceneOf::new(gravity, friction).map_err(|error| invalid(&head, error))?;
+    let mut scene = SceneOf::new(gravity, friction).map_err(|error| head.invalid(error))?;
     if let Some(tolerance) = head.number("contact_tolerance")? {
-        scene = scene.with_contact_tolerance(tolerance).map_err(|error| invalid(&head, error))?;
+        scene = scene.with_contact_tolerance(tolerance).map_err(|error| head.invalid(error))?;
     }
     let bodies = head.required("bodies")?;
     let Value::Array(bodies) = bodies else {
@@ -89,13 +89,8 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
     };
     let shape = S::shape(&body)?;
     let pose = S::pose(&body)?;
-    let index = S::add(scene, shape, pose, options).map_err(|error| invalid(&body, error))?;
+    let index = S::add(scene, shape, pose, options).map_err(|error| body.invalid(error))?;
     loads::add_loads(scene, &body, index, pose)
-}
-
-pub(super) fn invalid(fields: &Fields, error: SceneError) -> SceneError {
-    let (file, place) = (fields.file.to_owned(), fields.place.clone());
-    FileError::Invalid { file, place, error: Box::new(error) }.into()
 }
 
 fn syntax(file: &str, text: &str, error: &serde_json::Error) -> FileError {

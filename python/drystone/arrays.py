@@ -1,0 +1,31 @@
+"""Arrays from what callers give, or an error that names it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+    from drystone._core import DrystoneError
+
+
+def floats(value: ArrayLike, what: str, error: type[DrystoneError]) -> NDArray[np.float64]:
+    """As contiguous floats; an `error` that names `what` if they are none."""
+    if np.iscomplexobj(value):
+        raise error(f"{what} must hold real numbers, not complex ones")
+    try:
+        made = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise error(f"{what} must hold real numbers, not {value!r:.60}") from None
+    return np.ascontiguousarray(made) if made.ndim else made
+
+
+def vector(value: ArrayLike, what: str, error: type[DrystoneError]) -> NDArray[np.float64]:
+    """The same of one dimension."""
+    made = floats(value, what, error)
+    if made.ndim != 1:
+        raise error(f"{what} must be a vector, not of shape {made.shape}")
+    return made
