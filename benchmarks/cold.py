@@ -41,7 +41,7 @@ from cold_peers import PEERS, Gauss, Peer
 from cold_results import COLUMNS, OURS, PYRAMIDS, Answer, Row, show
 from cold_scenes import FAMILIES, Build, Family
 from drystone import _core
-from drystone.cones import FACETS
+from drystone.common.cones import FACETS
 
 REPEATS = 3
 SHORT = 0.1

@@ -8,6 +8,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from drystone.common import later
+
 if TYPE_CHECKING:
     from drystone import contact, imports, lcp, meshes, scenes, viewer
     from drystone._core import (
@@ -21,20 +23,19 @@ if TYPE_CHECKING:
         StepError,
         __version__,
     )
-    from drystone.body import Body, Contact, Piece, Solid
-    from drystone.contact_force import ContactForce, ContactForces
-    from drystone.limits import Limit, LimitEnd, limit
-    from drystone.loads import Load
+    from drystone.equilibrium.contact_force import ContactForce, ContactForces
+    from drystone.equilibrium.limits import Limit, LimitEnd, limit
+    from drystone.equilibrium.margins import Margin, margin
+    from drystone.equilibrium.structure import Structure
+    from drystone.equilibrium.verdict import Verdict, check
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
-    from drystone.margins import Margin, margin
-    from drystone.plan_answer import Blocked, Plan, TestRecord
-    from drystone.planning import plan
-    from drystone.scene import Scene
-    from drystone.simulation import Run, simulate
+    from drystone.motion.run import Run
+    from drystone.motion.simulation import simulate
+    from drystone.motion.world import StepRecord, World
+    from drystone.planning.answer import Blocked, Plan, TestRecord
+    from drystone.planning.search import plan
+    from drystone.scene import Body, Contact, Load, Piece, Scene, Solid
     from drystone.statics import StaticsError
-    from drystone.structure import Structure
-    from drystone.verdict import Verdict, check
-    from drystone.world import StepRecord, World
 
 __all__ = [
     "Blocked",
@@ -85,44 +86,44 @@ __all__ = [
 
 _MODULES = ("contact", "imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
-    "Blocked": "drystone.plan_answer",
-    "Body": "drystone.body",
+    "Blocked": "drystone.planning.answer",
+    "Body": "drystone.scene",
     "BusyError": "drystone._core",
-    "Contact": "drystone.body",
+    "Contact": "drystone.scene",
     "ContactError": "drystone._core",
-    "ContactForce": "drystone.contact_force",
-    "ContactForces": "drystone.contact_force",
+    "ContactForce": "drystone.equilibrium.contact_force",
+    "ContactForces": "drystone.equilibrium.contact_force",
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
     "LcpError": "drystone._core",
-    "Limit": "drystone.limits",
-    "LimitEnd": "drystone.limits",
-    "Load": "drystone.loads",
+    "Limit": "drystone.equilibrium.limits",
+    "LimitEnd": "drystone.equilibrium.limits",
+    "Load": "drystone.scene",
     "ManyPlans": "drystone.many",
-    "Margin": "drystone.margins",
-    "Piece": "drystone.body",
-    "Plan": "drystone.plan_answer",
-    "Run": "drystone.simulation",
+    "Margin": "drystone.equilibrium.margins",
+    "Piece": "drystone.scene",
+    "Plan": "drystone.planning.answer",
+    "Run": "drystone.motion.run",
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
     "ScenePlan": "drystone.many",
     "SimulationError": "drystone._core",
-    "Solid": "drystone.body",
+    "Solid": "drystone.scene",
     "StartError": "drystone._core",
     "StaticsError": "drystone.statics",
-    "Structure": "drystone.structure",
+    "Structure": "drystone.equilibrium.structure",
     "StepError": "drystone._core",
-    "StepRecord": "drystone.world",
-    "TestRecord": "drystone.plan_answer",
-    "Verdict": "drystone.verdict",
-    "World": "drystone.world",
+    "StepRecord": "drystone.motion.world",
+    "TestRecord": "drystone.planning.answer",
+    "Verdict": "drystone.equilibrium.verdict",
+    "World": "drystone.motion.world",
     "__version__": "drystone._core",
-    "check": "drystone.verdict",
-    "limit": "drystone.limits",
-    "margin": "drystone.margins",
-    "plan": "drystone.planning",
+    "check": "drystone.equilibrium.verdict",
+    "limit": "drystone.equilibrium.limits",
+    "margin": "drystone.equilibrium.margins",
+    "plan": "drystone.planning.search",
     "plan_many": "drystone.many",
-    "simulate": "drystone.simulation",
+    "simulate": "drystone.motion.simulation",
 }
 
 
@@ -139,3 +140,14 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted(__all__)
+
+
+# Who does what scenes and answers offer by the means of later rooms.
+later.figure.done_by(lambda: import_module("drystone.pictures").figure_of)
+later.save_figure.done_by(lambda: import_module("drystone.pictures").save)
+later.svg_of.done_by(lambda: import_module("drystone.pictures").svg)
+later.page.done_by(lambda: import_module("drystone.viewer").page_of)
+later.table.done_by(lambda: import_module("drystone.report.tables").text)
+later.imported.done_by(lambda: import_module("drystone.imports").load)
+later.advice.done_by(lambda: import_module("drystone.imports.foreign").advice)
+later.lies.done_by(lambda: import_module("drystone.imports.foreign").lies)

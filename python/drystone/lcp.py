@@ -27,7 +27,7 @@ import numpy as np
 
 from drystone import _core
 from drystone._core import LcpError, StartError
-from drystone.arrays import floats, vector
+from drystone.common.arrays import floats, vector
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray

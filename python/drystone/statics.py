@@ -20,7 +20,7 @@ import numpy as np
 
 from drystone import _core
 from drystone._core import DrystoneError
-from drystone.cones import CONES, FACETS
+from drystone.common.cones import CONES, FACETS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

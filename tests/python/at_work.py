@@ -15,7 +15,7 @@ MANY_TIMES_ENOUGH = 120.0
 CODE = """
 import sys
 from pathlib import Path
-from drystone import progress
+from drystone.common import progress
 from drystone.cli import main
 
 flag, bar = Path(sys.argv.pop(1)), getattr(progress, sys.argv.pop(1))

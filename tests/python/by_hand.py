@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 import drystone as ds
-from drystone.body import Solid
+from drystone.recording.contract import ABSENT, MOTIONLESS, NEXT, PRESENT
+from drystone.scene import Solid
 from drystone.viewer import FrameForces, Recording, Series
-from drystone.viewer.contract import ABSENT, MOTIONLESS, NEXT, PRESENT
 
 
 def box(

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import drystone as ds
-from drystone.json_text import Rows, write_json
+from drystone.common.json_text import Rows, write_json
 
 
 def written(answer: ds.Verdict | ds.Plan) -> str:

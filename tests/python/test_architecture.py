@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ast
 import re
+from collections.abc import Iterator
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +61,63 @@ def test_who_may_know_whom() -> None:
         assert "drystone_lcp" not in path.read_text(), path
     for path in _sources("crates/lcp/src/pivot"):
         assert not re.search(r"\b(Dense|Sparse)Factor\b", path.read_text()), path
+
+
+PACKAGE = ROOT / "python/drystone"
+
+
+def _module(path: Path) -> str:
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+MODULES = {_module(path): path for path in sorted(PACKAGE.rglob("*.py"))}
+
+
+def _imported(name: str) -> Iterator[str]:
+    """Files that a file imports: at the top, within a function or for types alone."""
+    for node in ast.walk(ast.parse(MODULES[name].read_text())):
+        found: list[str] = []
+        if isinstance(node, ast.Import):
+            found = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{name}: imports are written in full"
+            module = node.module or ""
+            found = [
+                inner if (inner := f"{module}.{alias.name}") in MODULES else module
+                for alias in node.names
+                if f"{module}.{alias.name}" != "drystone._core"
+            ]
+        for module in found:
+            if module in MODULES:
+                yield module
+                # A file of another folder comes with that folder's `__init__`.
+                folder = module.rpartition(".")[0]
+                if folder not in ("", "drystone") and not f"{name}.".startswith(f"{folder}."):
+                    yield folder
+
+
+def test_no_circle_of_imports() -> None:
+    """Deferred and type-only imports counted: TopologicalSorter names a circle if there is one."""
+    graph = {name: set(_imported(name)) - {name} for name in MODULES}
+    order = list(TopologicalSorter(graph).static_order())
+    assert len(order) == len(MODULES) > 100
+
+
+def test_rooms_of_the_package_are_in_the_order_of_the_data() -> None:
+    """A room imports those named before it in ARCHITECTURE.md, and no other."""
+    page = (ROOT / "ARCHITECTURE.md").read_text()
+    listed = re.search(r"^ {6}(common -> .*?)\n\n", page, re.MULTILINE | re.DOTALL)
+    assert listed is not None
+    rooms = re.findall(r"\w+", listed[1])
+    place = {room: k for k, room in enumerate(rooms)}
+    assert set(rooms) == {name.split(".")[1] for name in MODULES if "." in name} - {"__main__"}
+    for name in MODULES:
+        if "." not in name or name.endswith("__main__"):
+            continue
+        for other in _imported(name):
+            assert other != "drystone", f"{name} imports the package that puts all together"
+            assert place[other.split(".")[1]] <= place[name.split(".")[1]], f"{name}: {other}"
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from scipy.optimize import nnls
 
 import drystone as ds
 from drystone.cli import run
-from drystone.viewer.of_plan import plan_recording
+from drystone.recording.of_plan import plan_recording
 
 G = 9.81
 

@@ -84,7 +84,7 @@ def test_whatever_a_command_raises(
 
     monkeypatch.setattr("builtins.print", _only_to_stderr(fail))
     monkeypatch.setattr("rich.console.Console.print", fail)
-    monkeypatch.setattr("drystone.plan_answer.write_json", fail)
+    monkeypatch.setattr("drystone.planning.answer.write_json", fail)
     ran = cli(*COMMANDS[name].split())
     assert ran.status == status
     if said is None:

@@ -105,7 +105,7 @@ def test_the_command_line_tells_the_steps() -> None:
 
 
 def test_the_page_says_what_hands_do() -> None:
-    from drystone.viewer.of_plan import plan_recording
+    from drystone.recording.of_plan import plan_recording
 
     plan = ds.plan(ds.scenes.arch(5), hold=1, clear_path=True)
     captions = [text for _, text in plan_recording(plan).captions]

@@ -7,7 +7,7 @@ import pytest
 
 import drystone as ds
 from conftest import Ran
-from drystone.viewer.contract import FALLING, PRESENT
+from drystone.recording.contract import FALLING, PRESENT
 
 
 def overlapping(dimension: int) -> ds.Scene:

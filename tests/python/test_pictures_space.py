@@ -16,13 +16,13 @@ import drystone as ds
 from by_hand import box, solids
 from conftest import Ran, orderless
 from drystone import pictures
-from drystone.body import Solid
 from drystone.pictures import style
 from drystone.pictures.axonometry import View, box_of, far_to_near, pieces_of, rotation
 from drystone.pictures.canvas import fitted
 from drystone.pictures.in_space import draw_forces
 from drystone.pictures.seams import edges_seen
 from drystone.pictures.solids import Drawing, draw_solids
+from drystone.scene import Solid
 
 GRAVITY = (0.0, 0.0, -9.81)
 

@@ -9,7 +9,7 @@ import pytest
 
 import drystone as ds
 from conftest import dropped, orderless
-from drystone.planning import TESTS
+from drystone.planning.search import TESTS
 
 SCENES = {
     "column": lambda: ds.scenes.column(6),

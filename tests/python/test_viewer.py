@@ -17,10 +17,11 @@ import drystone as ds
 from conftest import ROOT, Ran, orderless
 from drystone import _core, pictures
 from drystone.pictures.axonometry import rotation
-from drystone.viewer import budget, contract, page
-from drystone.viewer.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT, unpacked
-from drystone.viewer.of_plan import plan_recording
-from drystone.viewer.recording import FrameForces, Recording, Series
+from drystone.recording import budget, contract
+from drystone.recording.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT, unpacked
+from drystone.recording.of_plan import plan_recording
+from drystone.recording.recording import FrameForces, Recording, Series
+from drystone.viewer import page
 
 FIXTURES = {
     ROOT / "viewer" / "test" / "plan.json": lambda: ds.scenes.five_blocks(),

@@ -1,7 +1,7 @@
 /**
  * What a page is given: a recording, as JSON. Version 2.
  *
- * `python/drystone/viewer/contract.py` is the same contract for the side that writes it. Units are
+ * `python/drystone/recording/contract.py` is the same contract for the side that writes it. Units are
  * SI: metres, kilograms, seconds, radians, newtons. A reader refuses another version; a new version
  * is needed for every change that would make an older page show something wrong.
  */

@@ -12,9 +12,7 @@ import os
 import sys
 from typing import TextIO
 
-BAD_INPUT = 2
-INTERRUPTED = 130
-NOT_READ = 141
+from drystone.cli.errors import BAD_INPUT, INTERRUPTED, NOT_READ, InputError
 
 
 def main() -> None:
@@ -75,19 +73,17 @@ def _said(error: BaseException) -> str:
 
 
 def _speaks(error: BaseException) -> bool:
-    from drystone.cli.errors import InputError
-
     if isinstance(error, InputError):
         return True
     try:
-        from drystone import DrystoneError
+        from drystone._core import DrystoneError
     except ImportError:
         return False
     return isinstance(error, DrystoneError)
 
 
 def _complain(message: str) -> int:
-    from drystone.text import shown
+    from drystone.common.text import shown
 
     if sys.stderr is not None:
         with contextlib.suppress(OSError, ValueError):  # nobody is there to be told

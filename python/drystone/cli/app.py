@@ -48,9 +48,9 @@ def root(
 ) -> int:
     """The options that belong to no command."""
     if version:
-        import drystone
+        from drystone import _core
 
-        print(drystone.__version__)
+        print(_core.__version__)
         raise typer.Exit
     return 0
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from drystone.cli.inputs import load_scene, reporting_files
 from drystone.cli.output import console
-from drystone.text import shown
+from drystone.common.text import shown
 
 
 def paper(folder: Path) -> int:

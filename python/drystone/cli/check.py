@@ -10,10 +10,10 @@ from pathlib import Path
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import chosen, draw, load_scene, picture_path
 from drystone.cli.output import console
-from drystone.contact_force import ANY, CANONICAL
-from drystone.tables import verdict_table
-from drystone.text import shown
-from drystone.verdict import Verdict, check
+from drystone.common.text import shown
+from drystone.equilibrium.contact_force import ANY, CANONICAL
+from drystone.equilibrium.verdict import Verdict, check
+from drystone.report.tables import verdict_table
 
 MOST_POINTS = 20_000
 """Without `--forces` larger scenes are shown with the forces that the verdict was found with: those

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import listed, reporting_files
 from drystone.cli.output import console
+from drystone.common.text import MOST_ROWS, shown
 from drystone.imports import Imported, load
-from drystone.tables import MOST_ROWS, cut, table
-from drystone.text import shown
+from drystone.report.tables import cut, table
 
 if TYPE_CHECKING:
     from rich.table import Table

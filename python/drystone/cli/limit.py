@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import chosen, draw, load_scene, picture_path
 from drystone.cli.output import console
-from drystone.json_text import write_json
-from drystone.limits import Limit, limit
-from drystone.tables import motion_table
-from drystone.text import shown
+from drystone.common.json_text import write_json
+from drystone.common.text import shown
+from drystone.equilibrium.limits import Limit, limit
+from drystone.report.tables import motion_table
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -9,10 +9,10 @@ from pathlib import Path
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import chosen, draw, load_scene, picture_path
 from drystone.cli.output import console
-from drystone.json_text import write_json
-from drystone.margins import Margin, margin
-from drystone.tables import motion_table
-from drystone.text import shown
+from drystone.common.json_text import write_json
+from drystone.common.text import shown
+from drystone.equilibrium.margins import Margin, margin
+from drystone.report.tables import motion_table
 
 
 def run(

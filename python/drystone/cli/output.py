@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from drystone.tables import WIDE
-from drystone.text import shown
+from drystone.common.text import shown
+from drystone.report.tables import WIDE
 
 if TYPE_CHECKING:
     from rich.console import Console

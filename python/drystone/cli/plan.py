@@ -8,10 +8,10 @@ from pathlib import Path
 
 from drystone.cli.inputs import load_scene, page_path, picture_path, reporting_files
 from drystone.cli.output import console, facts, names
-from drystone.plan_answer import Plan
-from drystone.planning import plan
-from drystone.progress import ForcesProgress, PlanProgress
-from drystone.text import shown
+from drystone.common.progress import ForcesProgress, PlanProgress
+from drystone.common.text import shown
+from drystone.planning.answer import Plan
+from drystone.planning.search import plan
 
 
 def run(

@@ -8,15 +8,13 @@ from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drystone.cli import BAD_INPUT, INTERRUPTED
-from drystone.cli.errors import InputError
+from drystone.cli.errors import BAD_INPUT, INTERRUPTED, InputError
 from drystone.cli.inputs import reporting_files
 from drystone.cli.output import console
+from drystone.common.text import MOST_ROWS, shorten, shown
 from drystone.many import ManyPlans, plan_many
 from drystone.many.progress import ManyProgress
-from drystone.tables import MOST_ROWS, cut, table
-from drystone.text import shown
-from drystone.verdict import shorten
+from drystone.report.tables import cut, table
 
 if TYPE_CHECKING:
     from rich.table import Table

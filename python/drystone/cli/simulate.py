@@ -6,17 +6,16 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drystone.cli.errors import InputError
+from drystone.cli.errors import INTERRUPTED, InputError
 from drystone.cli.inputs import load_scene, page_path, reporting_files
 from drystone.cli.output import console, facts
-from drystone.progress import RunProgress
-from drystone.simulation import Run, simulate
-from drystone.text import shown
+from drystone.common.progress import RunProgress
+from drystone.common.text import shown
+from drystone.motion.run import Run
+from drystone.motion.simulation import simulate
 
 if TYPE_CHECKING:
     from rich.table import Table
-
-INTERRUPTED = 130
 
 
 def run(

@@ -13,7 +13,7 @@ from os import PathLike
 
 from drystone.many import engines
 from drystone.many.answers import ManyPlans, ScenePlan
-from drystone.many.engines import EngineError
+from drystone.many.engine import EngineError
 from drystone.many.jobs import Job, Scenes, jobs_of
 from drystone.many.store import Store
 from drystone.many.work import Settings

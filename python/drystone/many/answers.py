@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from drystone import _core
-from drystone.verdict import counted, shorten
+from drystone.common.text import counted, shorten
 
 
 @dataclass(frozen=True, slots=True)

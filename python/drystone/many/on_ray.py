@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from drystone.many import work
-from drystone.many.engines import AHEAD, EngineError, Take, cores, readable
+from drystone.many.engine import AHEAD, EngineError, Take, cores, readable
 from drystone.many.jobs import Job
 from drystone.many.work import Settings, failure
 

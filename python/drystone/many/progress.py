@@ -7,8 +7,8 @@ import threading
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from drystone.common.progress import PATIENCE
 from drystone.many.answers import ScenePlan
-from drystone.progress import PATIENCE
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any
 
-from drystone.files import write_whole
+from drystone.common.files import write_whole
 from drystone.many.answers import ScenePlan
 from drystone.many.jobs import Job
 from drystone.many.work import Settings, failure

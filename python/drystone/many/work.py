@@ -12,8 +12,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from drystone import _core
-from drystone.plan_answer import Plan
-from drystone.planning import Progress, plan
+from drystone.planning.answer import Plan
+from drystone.planning.search import Progress, plan
 from drystone.scene import Scene
 
 

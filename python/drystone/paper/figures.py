@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from drystone import _core, pictures, scenes
 from drystone.paper.table import COLUMNS, Row
 from drystone.pictures import style
-from drystone.planning import plan
+from drystone.planning.search import plan
 
 MARKS = {
     "lp": ("o", "#8a6d3b", "LP, cold (HiGHS)"),

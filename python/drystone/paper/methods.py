@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from drystone import _core, scenes, statics
+from drystone.common.text import shown
 from drystone.paper.plain import plain_table
-from drystone.text import shown
 
 if TYPE_CHECKING:
     from rich.table import Table

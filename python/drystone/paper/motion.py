@@ -12,8 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drystone import scenes
+from drystone.motion.modes import REUSE
+from drystone.motion.run import Run
+from drystone.motion.simulation import simulate
 from drystone.paper.plain import plain_table
-from drystone.simulation import REUSE, Run, simulate
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -9,9 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from drystone import pictures, scenes
+from drystone.motion.simulation import simulate
 from drystone.paper.motion import MODES, Measured
 from drystone.pictures import style
-from drystone.simulation import simulate
 
 COLOURS = {"none": "#1f6fb2", "motionless": "#7a4fa3", "full": "#2c8a57"}
 

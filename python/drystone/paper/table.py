@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from drystone import scenes
 from drystone.paper.plain import plain_table
-from drystone.plan_answer import Plan
-from drystone.planning import plan
+from drystone.planning.answer import Plan
+from drystone.planning.search import plan
 
 if TYPE_CHECKING:
     from rich.table import Table

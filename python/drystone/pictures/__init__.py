@@ -8,9 +8,11 @@ from drystone.pictures.canvas import save, svg
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
 from drystone.pictures.graph import graph_figure
 from drystone.pictures.limits import limit_figure, margin_figure
+from drystone.pictures.pictured import figure_of
 from drystone.pictures.recording import frame_figure
 
 __all__ = [
+    "figure_of",
     "frame_figure",
     "graph_figure",
     "limit_figure",

@@ -16,8 +16,8 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from drystone.body import Solid
 from drystone.pictures.patches import patches
+from drystone.scene import Solid
 
 Points = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from drystone.files import write_whole
+from drystone.common.files import write_whole
 from drystone.pictures import style
 
 if TYPE_CHECKING:

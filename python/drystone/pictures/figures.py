@@ -10,8 +10,8 @@ from matplotlib import colormaps
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
-from drystone.body import Body
-from drystone.overlaps import names_in, titled
+from drystone.common.text import counted
+from drystone.equilibrium.verdict import Verdict
 from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
@@ -27,13 +27,13 @@ from drystone.pictures.shapes import (
     draw_labels,
     typical_size,
 )
-from drystone.scene import Scene
-from drystone.verdict import Verdict, counted
+from drystone.report.overlaps import names_in, titled
+from drystone.scene import Body, Scene
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from drystone.plan_answer import Plan
+    from drystone.planning.answer import Plan
 
 GHOST_MOVE = 0.35
 """How far the fastest corner of a falling block is shown moved, in typical block sizes."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from drystone.pictures import style
-from drystone.viewer.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT
-from drystone.viewer.recording import FrameForces, Recording
+from drystone.recording.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT
+from drystone.recording.recording import FrameForces, Recording
 
 FILLS = {
     PRESENT: style.STONE,

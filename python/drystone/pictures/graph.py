@@ -11,11 +11,10 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch
 
-from drystone.body import Body
+from drystone.common.text import shown
 from drystone.pictures import style
 from drystone.pictures.canvas import bounds
-from drystone.scene import Scene
-from drystone.text import shown
+from drystone.scene import Body, Scene
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

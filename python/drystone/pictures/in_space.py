@@ -11,7 +11,7 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
-from drystone.overlaps import names_in, titled
+from drystone.common.text import counted
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.axonometry import View
@@ -21,14 +21,13 @@ from drystone.pictures.moved import Moved
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_dashed, draw_solids
-from drystone.verdict import counted
+from drystone.report.overlaps import names_in, titled
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from drystone.body import Solid
-    from drystone.plan_answer import Plan
-    from drystone.scene import Scene
+    from drystone.planning.answer import Plan
+    from drystone.scene import Scene, Solid
 
 GHOST_MOVE = 0.35
 """How far the fastest corner of a falling block is shown moved, in typical block sizes."""

@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from drystone.contact_force import ContactForces
-    from drystone.limits import Limit
-    from drystone.margins import Margin
+    from drystone.equilibrium.contact_force import ContactForces
+    from drystone.equilibrium.limits import Limit
+    from drystone.equilibrium.margins import Margin
     from drystone.scene import Scene
 
 

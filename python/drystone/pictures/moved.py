@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from drystone.contact_force import ContactForces
+    from drystone.equilibrium.contact_force import ContactForces
     from drystone.scene import Scene
 
 

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from drystone.overlaps import MOST_LISTED, Overlap
 from drystone.pictures import style
+from drystone.report.overlaps import MOST_LISTED
+from drystone.scene import Overlap
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from drystone.body import Body
     from drystone.pictures.canvas import Canvas
+    from drystone.scene import Body
 
 
 def draw_overlaps(canvas: Canvas, bodies: Sequence[Body], overlaps: Sequence[Overlap]) -> None:

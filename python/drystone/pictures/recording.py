@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from drystone.body import Body
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.canvas import Canvas, bounds, fitted
@@ -23,8 +22,9 @@ from drystone.pictures.shapes import (
     draw_labels,
     typical_size,
 )
-from drystone.viewer.contract import ABSENT
-from drystone.viewer.recording import FrameForces, Recording, own_frame
+from drystone.recording.contract import ABSENT
+from drystone.recording.recording import FrameForces, Recording, own_frame
+from drystone.scene import Body
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

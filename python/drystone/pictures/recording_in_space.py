@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from drystone.body import Solid
 from drystone.pictures.axonometry import Shadow, View, movable_of, placed
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.frames import REACH, fills_in, note_of, reference_force, sampled
 from drystone.pictures.in_space import draw_forces
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_solids
-from drystone.viewer.contract import ABSENT
-from drystone.viewer.recording import FrameForces, Recording
+from drystone.recording.contract import ABSENT
+from drystone.recording.recording import FrameForces, Recording
+from drystone.scene import Solid
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,9 +8,9 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_rgb
 
+from drystone.common.text import shown
 from drystone.pictures import style
 from drystone.pictures.canvas import Canvas, Outlined
-from drystone.text import shown
 
 
 def draw_fixed(canvas: Canvas, bodies: Sequence[Outlined]) -> None:

@@ -10,7 +10,6 @@ from matplotlib.collections import PathCollection, PolyCollection
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from drystone.body import Solid
 from drystone.pictures import style
 from drystone.pictures.axonometry import (
     Piece,
@@ -25,6 +24,7 @@ from drystone.pictures.axonometry import (
 from drystone.pictures.canvas import Canvas
 from drystone.pictures.seams import edges_seen
 from drystone.pictures.shapes import draw_absent, draw_labels, line_width
+from drystone.scene import Solid
 
 Stroke = tuple[Path, "tuple[float, ...] | str", "tuple[float, ...] | str"]
 """An outline or a line, what fills it, and its colour."""

@@ -2,26 +2,27 @@
 
 `plan_page`, `run_page` and `scene_page` make pages of what they are given; `Page.save` writes one,
 and a notebook shows it. The front end is in `viewer/` of the source tree, the contract between the
-two sides in `contract.py` here and `contract.ts` there.
+two sides in `drystone/recording/contract.py` and `contract.ts` there.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import singledispatch
 from typing import TYPE_CHECKING
 
-from drystone.contact_force import CANONICAL
-from drystone.viewer.of_plan import Progress, plan_recording
-from drystone.viewer.of_run import run_recording
-from drystone.viewer.of_scene import scene_recording
+from drystone.equilibrium.contact_force import CANONICAL
+from drystone.motion.run import Run
+from drystone.planning.answer import Plan
+from drystone.recording.of_plan import Progress, plan_recording
+from drystone.recording.of_run import recording_of_run, run_recording
+from drystone.recording.of_scene import scene_recording
+from drystone.recording.recording import FrameForces, Recording, Series
+from drystone.scene import Scene
 from drystone.viewer.page import Page
-from drystone.viewer.recording import FrameForces, Recording, Series
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
-
-    from drystone.plan_answer import Plan
-    from drystone.scene import Scene
 
 __all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page", "scene_page"]
 
@@ -75,3 +76,18 @@ def run_page(
         series=series,
     )
     return Page(recording)
+
+
+@singledispatch
+def page_of(thing: object) -> Page:
+    """The page of a scene, a plan or a run; TypeError for what has none."""
+    raise TypeError(f"there is no page of a {type(thing).__name__}")
+
+
+page_of.register(Scene, scene_page)
+page_of.register(Plan, plan_page)
+
+
+@page_of.register
+def _(run: Run) -> Page:
+    return Page(recording_of_run(run))

@@ -12,9 +12,9 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from drystone import _core
-from drystone.files import write_whole
-from drystone.viewer import budget
-from drystone.viewer.recording import Recording
+from drystone.common.files import write_whole
+from drystone.recording import budget
+from drystone.recording.recording import Recording
 
 INLINE_HEIGHT = 640
 """Pixels of a page within a notebook."""
@@ -24,7 +24,7 @@ class Page:
     """A recording that can be looked at: saved as a page, or shown by a notebook.
 
     The page loads nothing: it opens from disk, without a network. What it holds is bounded, see
-    `drystone.viewer.budget`, and it says what was left out.
+    `drystone.recording.budget`, and it says what was left out.
     """
 
     __slots__ = ("recording",)

@@ -9,13 +9,14 @@ from dataclasses import dataclass, field, replace
 from os import PathLike
 from typing import TYPE_CHECKING, Any, TextIO
 
-from drystone import _core, tables
-from drystone.bearing import Explanation, NearMiss, Unsupported
-from drystone.cones import CONES, FACETS, ROUND, core_cones
-from drystone.contact_force import CANONICAL, ContactForce, ContactForces, which_forces
-from drystone.json_text import Rows, write_json
-from drystone.scene import Scene
-from drystone.text import shown
+from drystone import _core
+from drystone.common import later
+from drystone.common.cones import CONES, FACETS, ROUND, core_cones
+from drystone.common.json_text import Rows, write_json
+from drystone.common.text import MOST_ROWS, counted, shorten
+from drystone.equilibrium.bearing import Explanation, Unsupported
+from drystone.equilibrium.contact_force import CANONICAL, ContactForce, ContactForces, which_forces
+from drystone.scene import NearMiss, Scene
 
 if TYPE_CHECKING:
     import numpy as np
@@ -136,7 +137,7 @@ class Verdict:
         return self._explanation().near_misses
 
     def _explanation(self) -> Explanation:
-        return Explanation.of(self.scene, self.names, self.falling)
+        return Explanation.of(self.scene._core, self.names, self.falling)
 
     def __str__(self) -> str:
         work = counted(self.pivots, "pivot") if self.pivots or not self.iterations else ""
@@ -200,7 +201,7 @@ class Verdict:
             "seconds": self.seconds,
         }
 
-    def table(self, rows: int = tables.MOST_ROWS) -> str:
+    def table(self, rows: int = MOST_ROWS) -> str:
         """The first `rows` forces of what stands, or accelerations of what falls, as text.
 
         >>> import drystone as ds
@@ -210,18 +211,14 @@ class Verdict:
           ground - 1    -0.5       0        4.905                0
           ground - 1     0.5       0        4.905                0
         """
-        return tables.text_of(tables.verdict_table(self, rows, "rows= shows more"))
+        return later.table(self, rows)
 
     def draw(self, path: str | PathLike[str]) -> None:
         """Write a picture of the forces, or of the fall; the name ends in .svg or .png."""
-        from drystone import pictures
-
-        pictures.save(pictures.verdict_figure(self), path)
+        later.save_figure(later.figure(self), path)
 
     def _repr_svg_(self) -> str:
-        from drystone import pictures
-
-        return pictures.svg(pictures.verdict_figure(self))
+        return later.svg_of(later.figure(self))
 
 
 def check(
@@ -280,16 +277,3 @@ def _certain(core: _core.Verdict, scene: Scene, cone: str) -> bool:
         return True
     frictionless = scene._core.largest_friction() == 0.0
     return frictionless or core.stable == (cone == CONES[0])
-
-
-def counted(number: int, thing: str) -> str:
-    """1 block, 2 blocks."""
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
-
-
-def shorten(names: Iterable[str], limit: int = 8) -> str:
-    """The first few names, and how many more there are."""
-    every = [shown(name) for name in names]
-    if len(every) <= limit:
-        return ", ".join(every)
-    return ", ".join(every[:limit]) + f" and {len(every) - limit} more"

@@ -8,19 +8,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from warnings import warn
 
-from drystone import _core, weight
-from drystone.bearing import NearMiss
-from drystone.body import Contact, snapshot
-from drystone.loads import Load, listed, number, turning, vector
-from drystone.overlaps import Overlap
-from drystone.weight import Inertia
+from drystone import _core
+from drystone.common import later
+from drystone.common.numbers import number, vector
+from drystone.scene import weight
+from drystone.scene.body import Contact, snapshot
+from drystone.scene.loads import Load, listed, turning
+from drystone.scene.near_miss import NearMiss
+from drystone.scene.overlaps import Overlap
+from drystone.scene.weight import Inertia
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
-    from drystone.viewer import Page
+    from drystone.common.later import Page
 
 Point = Sequence[float]
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
@@ -414,9 +417,8 @@ class Scene:
         `options` are those of `drystone.imports.load`, whose `Imported` also says what was left
         out or taken otherwise than given. compas need not be installed.
         """
-        from drystone.imports import load
-
-        return load(assembly, **options).scene
+        scene: Scene = later.imported(assembly, **options).scene
+        return scene
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Self:
@@ -427,9 +429,7 @@ class Scene:
         try:
             return cls._of(_core.Scene.load(fspath(path)))
         except _core.SceneError:
-            from drystone.imports.foreign import advice
-
-            said = advice(Path(path))
+            said = later.advice(Path(path))
             if said is None:
                 raise
             raise _core.SceneError(said) from None
@@ -444,9 +444,7 @@ class Scene:
 
         SceneError for a name that says something else, such as one in .stl.
         """
-        from drystone.imports.foreign import lies
-
-        if lies(Path(path)):
+        if later.lies(Path(path)):
             raise _core.SceneError(f"{fspath(path)}: a scene is JSON: let its name end in .json")
         self._core.save(fspath(path))
 
@@ -494,7 +492,7 @@ class Scene:
     @property
     def loads(self) -> tuple[Load, ...]:
         """The permanent loads, body by body; see `add_load`."""
-        return listed(self)
+        return listed(self._core)
 
     @property
     def pair_friction(self) -> dict[tuple[str, str], float]:
@@ -544,20 +542,14 @@ class Scene:
         if fspath(path).lower().endswith(".html"):
             self.view().save(path)
             return
-        from drystone import pictures
-
-        pictures.save(pictures.scene_figure(self), path)
+        later.save_figure(later.figure(self), path)
 
     def view(self) -> Page:
         """A page with the bodies, to turn and look into; save it, or let a notebook show it."""
-        from drystone import viewer
-
-        return viewer.scene_page(self)
+        return later.page(self)
 
     def _repr_svg_(self) -> str:
-        from drystone import pictures
-
-        return pictures.svg(pictures.scene_figure(self))
+        return later.svg_of(later.figure(self))
 
     def __copy__(self) -> Self:
         return self._of(self._core.copy())

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drystone.overlaps import names_in, said, titled
-from drystone.viewer.contract import FALLING, PRESENT
-from drystone.viewer.recording import Recording
+from drystone.recording.contract import FALLING, PRESENT
+from drystone.recording.recording import Recording
+from drystone.report.overlaps import names_in, said, titled
 
 if TYPE_CHECKING:
     from drystone.scene import Scene

@@ -1,26 +1,11 @@
-"""Bodies that overlap: which, how deep, and what pictures and pages say of them."""
+"""What pictures and pages say of bodies that overlap."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from drystone.scene import Scene
-
-
-@dataclass(frozen=True, slots=True)
-class Overlap:
-    """Two bodies that occupy the same place by more than the contact tolerance."""
-
-    a: str
-    b: str
-    depth: float
-    """The shortest way to part them, metres."""
-    contact_tolerance: float
-    """How deep these two might be in each other, metres."""
-
+from drystone.common.text import counted
+from drystone.scene import Overlap, Scene
 
 MOST_LISTED = 8
 """Pairs that the note under a picture lists; `Scene.overlaps` has all."""
@@ -28,8 +13,6 @@ MOST_LISTED = 8
 
 def titled(scene: Scene, overlaps: Sequence[Overlap]) -> tuple[str, str]:
     """Title and note of a scene's picture."""
-    from drystone.verdict import counted
-
     blocks = counted(sum(not body.fixed for body in scene.bodies), "block")
     if not overlaps:
         return f"{blocks}, {counted(len(scene.contacts), 'contact point')}", ""

@@ -6,8 +6,8 @@ import copy
 from collections.abc import Callable, Sequence
 
 from drystone import _core
-from drystone.cones import CONES, FACETS, core_cones
-from drystone.plan_answer import Plan
+from drystone.common.cones import CONES, FACETS, core_cones
+from drystone.planning.answer import Plan
 from drystone.scene import Scene
 
 TESTS = ("reuse", "reuse-dantzig", "lcp", "lp", "lp-warm")

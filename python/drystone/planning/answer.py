@@ -8,15 +8,17 @@ from dataclasses import dataclass, field, replace
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, TextIO
 
-from drystone import _core, tables
-from drystone.cones import CONES, FACETS
-from drystone.contact_force import CANONICAL
-from drystone.json_text import write_json
+from drystone import _core
+from drystone.common import later
+from drystone.common.cones import CONES, FACETS
+from drystone.common.json_text import write_json
+from drystone.common.text import MOST_ROWS, counted, shorten
+from drystone.equilibrium.contact_force import CANONICAL
+from drystone.equilibrium.verdict import Verdict
 from drystone.scene import Scene
-from drystone.verdict import Verdict, counted, shorten
 
 if TYPE_CHECKING:
-    from drystone.viewer import Page
+    from drystone.common.later import Page
 
 ENDINGS = {
     "no_order": "No stable order exists",
@@ -172,9 +174,9 @@ class Plan:
     def __repr__(self) -> str:
         return f"<Plan: {str(self).splitlines()[0]}>"
 
-    def table(self, rows: int = tables.MOST_ROWS) -> str:
+    def table(self, rows: int = MOST_ROWS) -> str:
         """The first `rows` steps of the order as text: what is removed, held, and whereto."""
-        return tables.text_of(tables.plan_table(self, rows))
+        return later.table(self, rows)
 
     def _said_of_holds(self) -> str:
         steps = [name for action, name, _ in self.hold_steps if action == "hold"]
@@ -226,9 +228,7 @@ class Plan:
         if fspath(path).lower().endswith(".html"):
             self.view().save(path)
             return
-        from drystone import pictures
-
-        pictures.save(pictures.plan_figure(self), path)
+        later.save_figure(later.figure(self), path)
 
     def view(
         self, progress: Callable[[int, int], None] | None = None, *, forces: str = CANONICAL
@@ -241,11 +241,7 @@ class Plan:
         Save it, or let a notebook show it. The forces are computed here; `progress` is called with
         (blocks placed, blocks in all) a few times a second.
         """
-        from drystone import viewer
-
-        return viewer.plan_page(self, progress, forces)
+        return later.page(self, progress, forces)
 
     def _repr_svg_(self) -> str:
-        from drystone import pictures
-
-        return pictures.svg(pictures.plan_figure(self))
+        return later.svg_of(later.figure(self))

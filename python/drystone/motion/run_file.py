@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drystone import _core
+from drystone.motion.modes import ENDINGS, FORMULATIONS, REUSE
 from drystone.scene import Scene
 
 if TYPE_CHECKING:
@@ -116,8 +117,6 @@ def _array(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> NDArray[Any]:
 
 
 def _checked_about(about: dict[str, Any]) -> dict[str, Any]:
-    from drystone.simulation import ENDINGS, FORMULATIONS, REUSE
-
     if about.keys() != ABOUT.keys():
         raise ValueError(f"its fields are {', '.join(sorted(about))[:80]}")
     for field, kind in ABOUT.items():

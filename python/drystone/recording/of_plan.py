@@ -10,15 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drystone import _core
-from drystone.contact_force import ANY, CANONICAL, which_forces
-from drystone.text import shown
-from drystone.verdict import Verdict, counted, shorten
-from drystone.viewer import budget
-from drystone.viewer.contract import ABSENT, FALLING, NEXT, PRESENT
-from drystone.viewer.recording import FrameForces, Recording, Series, rows_of
+from drystone.common.text import counted, shorten, shown
+from drystone.equilibrium.contact_force import ANY, CANONICAL, which_forces
+from drystone.equilibrium.verdict import Verdict
+from drystone.recording import budget
+from drystone.recording.contract import ABSENT, FALLING, NEXT, PRESENT
+from drystone.recording.recording import FrameForces, Recording, Series, rows_of
 
 if TYPE_CHECKING:
-    from drystone.plan_answer import Plan
+    from drystone.planning.answer import Plan
 
 Progress = Callable[[int, int], None]
 """Called with (blocks placed, blocks in all) a few times a second."""

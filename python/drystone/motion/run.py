@@ -1,46 +1,25 @@
-"""How does it move? Exact contact in the plane and in space, step by step."""
+"""The answer of `simulate`: what moved, where to, and the work it took."""
 
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from drystone import _core, tables
-from drystone.cones import CONES, FACETS, core_cones
-from drystone.files import write_whole
+from drystone import _core
+from drystone.common import later
+from drystone.common.files import write_whole
+from drystone.common.text import MOST_ROWS, counted, shorten
+from drystone.motion.modes import ENDINGS
 from drystone.scene import Scene
-from drystone.verdict import counted, shorten
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from drystone.viewer import Page
-
-REUSE = ("full", "motionless", "none")
-"""What a step may take over from the one before it: see `simulate`."""
-
-FORMULATIONS = ("velocity", "acceleration")
-"""What the unknowns of a step may be: see `simulate`."""
-
-MOST_STEPS = 10**9
-"""Steps of one run: it holds all of them in memory."""
-
-ENDINGS = {
-    "finished": "Finished",
-    "interrupted": "Interrupted",
-    "unsolved": "Stopped: a step could not be solved",
-    "too_fast": "Stopped: a block turns too fast for the step",
-    "out_of_bounds": "Stopped: a block is further away or faster than can be computed",
-}
-"""What a run's status says."""
-
-Progress = Callable[[int, int], None]
-"""Called with (steps made, steps in all) a few times a second."""
+    from drystone.common.later import Page
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -195,9 +174,9 @@ class Run:
     def __repr__(self) -> str:
         return f"<Run: {str(self).splitlines()[0]}>"
 
-    def table(self, rows: int = tables.MOST_ROWS) -> str:
+    def table(self, rows: int = MOST_ROWS) -> str:
         """At most `rows` steps as text, evenly spread: what moved, the work, the errors."""
-        return tables.text_of(tables.run_table(self, rows))
+        return later.table(self, rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Totals and the last state, in types that JSON knows; `save` keeps the arrays."""
@@ -238,33 +217,11 @@ class Run:
         >>> ds.simulate(ds.scenes.fall7(), steps=60, forces=True).view()
         <Page: run, 61 frames of 8 bodies>
         """
-        import numpy as np
-
-        from drystone.viewer import FrameForces, run_page
-
-        forces = None
-        if len(self.force_starts) == self.steps + 1 and self.steps > 0:
-            # The beginning has no forces of its own: it shows those of the first step.
-            first = self.force_starts[1]
-            twice = [
-                np.concatenate([values[:first], values])
-                for values in (self.force_bodies, self.force_points, self.forces)
-            ]
-            forces = FrameForces(np.concatenate([[0], self.force_starts + first]), *twice)
-        times = self.dt * np.arange(self.steps + 1)
-        return run_page(
-            self.scene,
-            times,
-            self.poses,
-            self.motionless if self.steps else np.ones((1, len(self.names)), dtype=bool),
-            self.pivots,
-            self.solve_seconds,
-            forces,
-        )
+        return later.page(self)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the run as a compressed NumPy archive (.npz), whole or not at all."""
-        from drystone import run_file
+        from drystone.motion import run_file
 
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         arrays = {name: value for name, value in values.items() if hasattr(value, "dtype")}
@@ -275,103 +232,6 @@ class Run:
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Run:
         """Read a run that `save` wrote; SimulationError for another or a damaged file."""
-        from drystone import run_file
+        from drystone.motion import run_file
 
         return cls(**run_file.load(path))
-
-
-def simulate(
-    scene: Scene,
-    dt: float = 1 / 240,
-    steps: int = 1200,
-    reuse: str = "full",
-    *,
-    restitution: float = 0.0,
-    formulation: str = "velocity",
-    velocities: Mapping[str, Sequence[float]] | None = None,
-    facets: int = FACETS,
-    cone: str = CONES[0],
-    forces: bool = False,
-    progress: Progress | None = None,
-) -> Run:
-    """Let the bodies of a scene move, from rest or with the `velocities` given by name.
-
-    Every step of `dt` seconds is one complementarity problem of impulses and velocities over the
-    contacts that may close in it: resting, sliding with Coulomb's friction, rolling over corners
-    and impacts alike. What stands still keeps its place to the bit. `reuse` says what a step takes
-    over from the one before; the motion is the same:
-
-    - "full": everything that did not move: impulses, active set, factor rows, contact geometry;
-    - "motionless": the solution of the motionless part, solved anew when that part changes, as in
-      the paper;
-    - "none": nothing.
-
-    `formulation` says what the unknowns of a step are: on the "velocity" level impulses and
-    velocities, in one problem that always has a solution; on the "acceleration" level forces and
-    accelerations, after impulses where bodies collide, as in the paper. Where no forces exist (as
-    at Painlevé's rod) impulses take their place, and `Run.inconsistent` names the bodies. In space
-    there is the "velocity" level only.
-
-    `restitution` is the share of the normal velocity with which colliding bodies part (0 to 1).
-    `velocities` are (m/s, m/s, rad/s), in space six numbers: m/s along the axes, rad/s about them.
-    In space, Coulomb's cones are round from the step on in which a quarter of the blocks move, with
-    reuse="full". `facets` and `cone` ("inscribed" or "circumscribed") are the pyramids for what
-    stands, for few that move amid many, for the other modes, and for steps in which nothing near
-    Coulomb's law was found on round cones: see `check`. With `forces` the run holds the contact
-    forces of every step.
-
-    A step that cannot be made, and Ctrl-C, end the run; its status says so, and the steps before
-    are kept.
-
-    In motion a coefficient of friction above 100 counts as 100: no load that leans by less than
-    89.4 degrees from a face's normal slides on it.
-
-    Raises SimulationError for a `dt` outside 1e-12 to 1e12 s, a `restitution` outside 0 to 1 or
-    velocities that are not finite or beyond 1e12, and SceneError for bodies that overlap, or facets
-    that are not 3 to 1000.
-
-    >>> import drystone as ds
-    >>> run = ds.simulate(ds.scenes.fall7(), steps=240)
-    >>> run.moving
-    ('6', '7')
-    >>> run.poses.shape
-    (241, 8, 3)
-    >>> boxes = ds.scenes.fall7().extruded(1.0)
-    >>> run = ds.simulate(boxes, steps=240)
-    >>> run.moving
-    ('6', '7')
-    >>> run.poses.shape
-    (241, 8, 7)
-    """
-    if not 0 <= steps <= MOST_STEPS:
-        raise _core.SimulationError(f"steps is {steps}: it must be from 0 to {MOST_STEPS}")
-    if not isinstance(velocities or {}, Mapping):
-        raise TypeError(
-            f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
-        )
-    cones = core_cones(facets, cone)
-    world = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
-    for name, velocity in (velocities or {}).items():
-        world.set_velocity(name, velocity_of(world, name, velocity))
-    start = Scene._of(world.scene)
-    return Run._of(world.run(steps, forces, progress), world, start)
-
-
-def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:
-    """The velocity of a body as floats: three in the plane, six in space."""
-    units = "m/s, m/s, rad/s" if world.dimension == 2 else "m/s three times, rad/s three times"
-    return numbers(value, 3 * world.dimension - 3, f'block "{name}": velocity', units)
-
-
-def numbers(value: float | Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
-    """`value` as so many floats, one may stand alone; SimulationError naming `what` otherwise."""
-    try:
-        found = tuple(map(float, (value,) if isinstance(value, int | float) else value))
-    except (TypeError, ValueError):
-        found = ()
-    if len(found) != count:
-        spelled = {1: "one", 2: "two", 3: "three", 6: "six"}[count]
-        noun = "number" if count == 1 else "numbers"
-        message = f"{what} must be {spelled} {noun} ({units}), not {value!r}"
-        raise _core.SimulationError(message)
-    return found

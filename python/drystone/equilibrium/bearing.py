@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
-from drystone.text import shown
+from drystone.common.text import shown
+from drystone.scene import NearMiss
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from drystone.scene import Scene
+    from drystone import _core
 
 MOST_SAID = 4
 """Blocks that a verdict's text names; `Verdict.unsupported` has all."""
@@ -40,24 +41,6 @@ class Unsupported:
 
 
 @dataclass(frozen=True, slots=True)
-class NearMiss:
-    """Two bodies that do not touch, but would with a contact tolerance ten times larger."""
-
-    a: str
-    b: str
-    gap: float
-    """Metres between their surfaces."""
-    contact_tolerance: float
-    """Metres: a scene with this one takes them for touching."""
-
-    def __str__(self) -> str:
-        return (
-            f'With contact_tolerance={self.contact_tolerance:.3g} "{shown(self.a)}" would touch '
-            f'"{shown(self.b)}": gap {self.gap:.3g} m.'
-        )
-
-
-@dataclass(frozen=True, slots=True)
 class Explanation:
     """Why blocks fall that bear on nothing."""
 
@@ -65,11 +48,11 @@ class Explanation:
     near_misses: tuple[NearMiss, ...] = ()
 
     @classmethod
-    def of(cls, scene: Scene, names: Sequence[str], falling: Sequence[str]) -> Explanation:
+    def of(cls, scene: _core.Scene, names: Sequence[str], falling: Sequence[str]) -> Explanation:
         """Of a verdict on `names`, of which `falling` fall; nothing to say if none does."""
         if not falling:
             return cls()
-        blocks, pairs = scene._core.explain_fall(list(names), list(falling))
+        blocks, pairs = scene.explain_fall(list(names), list(falling))
         return cls(
             tuple(
                 Unsupported(name, tuple(touches), *(nearest or (None, None)))

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
+from functools import singledispatch
 from typing import TYPE_CHECKING
 
-from drystone.text import shown
+from drystone.common.text import MOST_ROWS, shown
+from drystone.equilibrium.verdict import Verdict
+from drystone.motion.run import Run
+from drystone.planning.answer import Plan
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
     from rich.table import Table
 
-    from drystone.plan_answer import Plan
-    from drystone.simulation import Run
-    from drystone.verdict import Verdict
-
-MOST_ROWS = 40
-"""Longer tables are cut, with a line that says so."""
 
 IN_JSON = "--json lists all"
 """Where the rest of a table is, on the command line."""
+
+IN_PYTHON = "rows= shows more"
+"""The same in Python."""
 
 WIDE = 1_000_000
 """Columns of what is no terminal: a program that reads lines wants them whole."""
@@ -54,6 +55,27 @@ def text_of(made: Table) -> str:
     Console(file=file, width=WIDE, markup=False, emoji=False, highlight=False).print(made)
     lines = (line.rstrip() for line in file.getvalue().splitlines())
     return "\n".join(line for line in lines if line)
+
+
+@singledispatch
+def text(answer: object, rows: int = MOST_ROWS) -> str:
+    """The first `rows` of an answer's table, as lines of text."""
+    raise TypeError(f"there is no table of a {type(answer).__name__}")
+
+
+@text.register
+def _(verdict: Verdict, rows: int = MOST_ROWS) -> str:
+    return text_of(verdict_table(verdict, rows, IN_PYTHON))
+
+
+@text.register
+def _(plan: Plan, rows: int = MOST_ROWS) -> str:
+    return text_of(plan_table(plan, rows))
+
+
+@text.register
+def _(run: Run, rows: int = MOST_ROWS) -> str:
+    return text_of(run_table(run, rows))
 
 
 def verdict_table(verdict: Verdict, rows: int = MOST_ROWS, more: str = IN_JSON) -> Table:
@@ -103,7 +125,7 @@ def plan_table(plan: Plan, rows: int) -> Table:
         held = " ".join(shown(other) for other in plan.holds[k]) if plan.holds else ""
         way = ", ".join(f"{x:.3g}" for x in plan.directions[k]) if plan.directions else ""
         made.add_row(str(k + 1), shown(name), held, way)
-    return cut(made, len(plan.order), rows, "rows= shows more")
+    return cut(made, len(plan.order), rows, IN_PYTHON)
 
 
 def run_table(run: Run, rows: int) -> Table:
@@ -120,5 +142,5 @@ def run_table(run: Run, rows: int) -> Table:
             f"{run.friction_error[k]:.2g}",
         )
     if count < run.steps:
-        made.caption = f"{count} of {run.steps} steps; rows= shows more"
+        made.caption = f"{count} of {run.steps} steps; {IN_PYTHON}"
     return made

@@ -1,8 +1,12 @@
-"""Names in text for people."""
+"""Names and numbers in text for people."""
 
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterable
+
+MOST_ROWS = 40
+"""Longer tables are cut, with a line that says so."""
 
 _TURNING = frozenset("\u061c\u200e\u200f\u202a\u202b\u202c\u202d\u202e\u2066\u2067\u2068\u2069")
 """Marks that change the direction of what follows: text around a name would turn with it."""
@@ -26,3 +30,16 @@ def _escaped(c: str) -> str:
     if c in _TURNING or unicodedata.category(c) in _UNSHOWN:
         return c.encode("unicode_escape").decode("ascii")
     return c
+
+
+def counted(number: int, thing: str) -> str:
+    """1 block, 2 blocks."""
+    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+
+
+def shorten(names: Iterable[str], limit: int = 8) -> str:
+    """The first few names, and how many more there are."""
+    every = [shown(name) for name in names]
+    if len(every) <= limit:
+        return ", ".join(every)
+    return ", ".join(every[:limit]) + f" and {len(every) - limit} more"

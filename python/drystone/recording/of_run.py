@@ -8,11 +8,33 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drystone.viewer.contract import ABSENT, MOTIONLESS, PRESENT
-from drystone.viewer.recording import POSE, FrameForces, Recording, Series
+from drystone.recording.contract import ABSENT, MOTIONLESS, PRESENT
+from drystone.recording.recording import POSE, FrameForces, Recording, Series
 
 if TYPE_CHECKING:
+    from drystone.motion.run import Run
     from drystone.scene import Scene
+
+
+def recording_of_run(run: Run) -> Recording:
+    """A run, with its contact forces if they were recorded."""
+    times = run.dt * np.arange(run.steps + 1)
+    still = run.motionless if run.steps else np.ones((1, len(run.names)), dtype=bool)
+    return run_recording(
+        run.scene, times, run.poses, still, run.pivots, run.solve_seconds, _forces(run)
+    )
+
+
+def _forces(run: Run) -> FrameForces | None:
+    if run.steps == 0 or len(run.force_starts) != run.steps + 1:
+        return None
+    # The beginning has no forces of its own: it shows those of the first step.
+    first = run.force_starts[1]
+    twice = [
+        np.concatenate([values[:first], values])
+        for values in (run.force_bodies, run.force_points, run.forces)
+    ]
+    return FrameForces(np.concatenate([[0], run.force_starts + first]), *twice)
 
 
 def run_recording(

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-
-if TYPE_CHECKING:
-    from drystone.scene import Scene
+from drystone.common.numbers import number, vector
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +25,7 @@ class Load:
     """N m beside the force: counter-clockwise, in space about the axes of the world."""
 
 
-def listed(scene: Scene) -> tuple[Load, ...]:
+def listed(scene: _core.Scene) -> tuple[Load, ...]:
     """The loads of a scene, body by body."""
 
     def load(
@@ -38,27 +35,7 @@ def listed(scene: Scene) -> tuple[Load, ...]:
         turning = (x, others[0], others[1]) if others else x
         return Load(name, body, force, at, turning)
 
-    return tuple(load(*found) for found in _core.loads(scene._core))
-
-
-def vector(value: Any, dimension: int, what: str) -> tuple[float, ...]:
-    """`value` as so many floats; SceneError naming `what` otherwise."""
-    try:
-        found = tuple(float(x) for x in value)
-    except (TypeError, ValueError):
-        found = ()
-    if len(found) != dimension or isinstance(value, str):
-        words = "two numbers (x, y)" if dimension == 2 else "three numbers (x, y, z)"
-        raise _core.SceneError(f"{what} must be {words}, not {value!r}")
-    return found
-
-
-def number(value: Any, what: str) -> float:
-    """`value` as a float; SceneError naming `what` otherwise."""
-    try:
-        return float(value)
-    except (TypeError, ValueError):
-        raise _core.SceneError(f"{what} must be a number, not {value!r}") from None
+    return tuple(load(*found) for found in _core.loads(scene))
 
 
 def turning(value: float | Sequence[float] | None, dimension: int) -> tuple[float, float, float]:

@@ -14,7 +14,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from drystone.viewer.recording import FrameForces, Recording, Series, rows_of
+from drystone.recording.recording import FrameForces, Recording, Series, rows_of
 
 MIB = 1 << 20
 STATE_BYTES = 1

@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.cones import CONES, FACETS, core_cones
-from drystone.contact_force import ContactForce
-from drystone.scene import UPRIGHT, Point, Scene
-from drystone.simulation import Progress, Run, numbers, velocity_of
-from drystone.weight import Inertia
+from drystone.common.cones import CONES, FACETS, core_cones
+from drystone.equilibrium.contact_force import ContactForce
+from drystone.motion.modes import Progress
+from drystone.motion.run import Run
+from drystone.motion.simulation import numbers, velocity_of
+from drystone.scene import Inertia, Point, Scene
+from drystone.scene.scene import UPRIGHT
 
 if TYPE_CHECKING:
     import numpy as np

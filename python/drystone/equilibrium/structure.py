@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.cones import CONES, FACETS, core_cones
-from drystone.contact_force import CANONICAL, which_forces
-from drystone.limits import Limit, Push, core_push, limit_of
+from drystone.common.cones import CONES, FACETS, core_cones
+from drystone.equilibrium.contact_force import CANONICAL, which_forces
+from drystone.equilibrium.limits import Limit, Push, core_push, limit_of
+from drystone.equilibrium.verdict import Verdict
 from drystone.scene import Scene
-from drystone.verdict import Verdict
 
 if TYPE_CHECKING:
     from typing_extensions import Self

@@ -9,8 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from drystone.body import Body, Solid
-from drystone.viewer.contract import (
+from drystone.recording.contract import (
     FORMAT,
     VERSION,
     BodyJson,
@@ -20,6 +19,7 @@ from drystone.viewer.contract import (
     SeriesJson,
     packed,
 )
+from drystone.scene import Body, Solid
 
 POSE = {2: 3, 3: 7}
 """Numbers of a pose, by dimension."""

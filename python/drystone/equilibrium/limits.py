@@ -9,11 +9,12 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.cones import CONES, FACETS, ROUND, core_cones
-from drystone.contact_force import ANY, ContactForces
-from drystone.loads import vector
+from drystone.common import later
+from drystone.common.cones import CONES, FACETS, ROUND, core_cones
+from drystone.common.numbers import vector
+from drystone.common.text import counted, shorten
+from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
-from drystone.verdict import counted, shorten
 
 if TYPE_CHECKING:
     import numpy as np
@@ -152,14 +153,10 @@ class Limit:
 
     def draw(self, path: str | PathLike[str]) -> None:
         """Write a picture of the forces and of the collapse at the greatest factor (.svg, .png)."""
-        from drystone import pictures
-
-        pictures.save(pictures.limit_figure(self), path)
+        later.save_figure(later.figure(self), path)
 
     def _repr_svg_(self) -> str:
-        from drystone import pictures
-
-        return pictures.svg(pictures.limit_figure(self))
+        return later.svg_of(later.figure(self))
 
 
 def limit(

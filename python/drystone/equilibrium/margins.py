@@ -8,17 +8,18 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.cones import CONES, FACETS, ROUND, core_cones
-from drystone.limits import LimitEnd, finite, movable
-from drystone.loads import number
+from drystone.common import later
+from drystone.common.cones import CONES, FACETS, ROUND, core_cones
+from drystone.common.numbers import number
+from drystone.common.text import counted, shorten
+from drystone.equilibrium.limits import LimitEnd, finite, movable
 from drystone.scene import Scene
-from drystone.verdict import counted, shorten
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from drystone.contact_force import ContactForces
+    from drystone.equilibrium.contact_force import ContactForces
 
 STAY, TURN = "stay", "turn"
 """What permanent loads do while a structure is accelerated or tilted."""
@@ -144,9 +145,7 @@ class Margin:
 
     def draw(self, path: str | PathLike[str]) -> None:
         """Write a picture of the collapse (.svg or .png)."""
-        from drystone import pictures
-
-        pictures.save(pictures.margin_figure(self), path)
+        later.save_figure(later.figure(self), path)
 
 
 def margin(

@@ -1,0 +1,1 @@
+"""What every room needs: text, files, arrays, cones, and who does what comes later."""

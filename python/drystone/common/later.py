@@ -1,0 +1,76 @@
+"""What a scene or an answer does by the means of a later room: draw itself, make a page of itself.
+
+Code goes one way, as the data does: who draws, tabulates and imports knows scenes and answers, and
+these know none of them. So a method such as `Verdict.draw` calls a function of this file, and
+`drystone/__init__.py`, which knows all rooms, says who does the work.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Made = TypeVar("Made")
+
+
+class Later(Generic[Made]):
+    """A function that is found when it is first called."""
+
+    __slots__ = ("_find",)
+
+    _find: Callable[[], Callable[..., Made]]
+
+    def done_by(self, find: Callable[[], Callable[..., Made]]) -> None:
+        """Say who does it: `find` imports and returns the function."""
+        self._find = find
+
+    def __call__(self, *given: Any, **options: Any) -> Made:
+        return self._find()(*given, **options)
+
+
+class Page(Protocol):
+    """A page to look at: a `drystone.viewer.Page`, which says more."""
+
+    def html(self) -> str:
+        """The text of the page."""
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the page; the name ends in .html."""
+
+    def save_frames(
+        self,
+        folder: str | PathLike[str],
+        frames: Iterable[int] | None = None,
+        suffix: str = ".png",
+    ) -> list[Path]:
+        """Draw frames (all by default) as pictures; return their paths."""
+
+
+figure: Later[Figure] = Later()
+"""Of a scene or an answer: its picture."""
+
+save_figure: Later[None] = Later()
+"""Of a figure and a path: writes the picture."""
+
+svg_of: Later[str] = Later()
+"""Of a figure: the text of an SVG image."""
+
+page: Later[Page] = Later()
+"""Of a scene, a plan or a run: its page."""
+
+table: Later[str] = Later()
+"""Of an answer, and how many rows: its table as text."""
+
+imported: Later[Any] = Later()
+"""Of a file of another tool, with the options of `drystone.imports.load`: an `Imported`."""
+
+advice: Later[str | None] = Later()
+"""Of a path: what to do with a file of another tool that was given as a scene."""
+
+lies: Later[bool] = Later()
+"""Of a path: whether a name says that the file is something else than a scene."""

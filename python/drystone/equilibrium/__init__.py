@@ -1,0 +1,1 @@
+"""Does it stand, how much more does it bear, and how far is it from falling?"""

@@ -1,0 +1,26 @@
+"""How a run may be made, and how it may end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+REUSE = ("full", "motionless", "none")
+"""What a step may take over from the one before it: see `simulate`."""
+
+FORMULATIONS = ("velocity", "acceleration")
+"""What the unknowns of a step may be: see `simulate`."""
+
+MOST_STEPS = 10**9
+"""Steps of one run: it holds all of them in memory."""
+
+ENDINGS = {
+    "finished": "Finished",
+    "interrupted": "Interrupted",
+    "unsolved": "Stopped: a step could not be solved",
+    "too_fast": "Stopped: a block turns too fast for the step",
+    "out_of_bounds": "Stopped: a block is further away or faster than can be computed",
+}
+"""What a run's status says."""
+
+Progress = Callable[[int, int], None]
+"""Called with (steps made, steps in all) a few times a second."""

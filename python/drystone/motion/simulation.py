@@ -1,0 +1,108 @@
+"""How does it move? Exact contact in the plane and in space, step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from drystone import _core
+from drystone.common.cones import CONES, FACETS, core_cones
+from drystone.motion.modes import MOST_STEPS, Progress
+from drystone.motion.run import Run
+from drystone.scene import Scene
+
+
+def simulate(
+    scene: Scene,
+    dt: float = 1 / 240,
+    steps: int = 1200,
+    reuse: str = "full",
+    *,
+    restitution: float = 0.0,
+    formulation: str = "velocity",
+    velocities: Mapping[str, Sequence[float]] | None = None,
+    facets: int = FACETS,
+    cone: str = CONES[0],
+    forces: bool = False,
+    progress: Progress | None = None,
+) -> Run:
+    """Let the bodies of a scene move, from rest or with the `velocities` given by name.
+
+    Every step of `dt` seconds is one complementarity problem of impulses and velocities over the
+    contacts that may close in it: resting, sliding with Coulomb's friction, rolling over corners
+    and impacts alike. What stands still keeps its place to the bit. `reuse` says what a step takes
+    over from the one before; the motion is the same:
+
+    - "full": everything that did not move: impulses, active set, factor rows, contact geometry;
+    - "motionless": the solution of the motionless part, solved anew when that part changes, as in
+      the paper;
+    - "none": nothing.
+
+    `formulation` says what the unknowns of a step are: on the "velocity" level impulses and
+    velocities, in one problem that always has a solution; on the "acceleration" level forces and
+    accelerations, after impulses where bodies collide, as in the paper. Where no forces exist (as
+    at Painlevé's rod) impulses take their place, and `Run.inconsistent` names the bodies. In space
+    there is the "velocity" level only.
+
+    `restitution` is the share of the normal velocity with which colliding bodies part (0 to 1).
+    `velocities` are (m/s, m/s, rad/s), in space six numbers: m/s along the axes, rad/s about them.
+    In space, Coulomb's cones are round from the step on in which a quarter of the blocks move, with
+    reuse="full". `facets` and `cone` ("inscribed" or "circumscribed") are the pyramids for what
+    stands, for few that move amid many, for the other modes, and for steps in which nothing near
+    Coulomb's law was found on round cones: see `check`. With `forces` the run holds the contact
+    forces of every step.
+
+    A step that cannot be made, and Ctrl-C, end the run; its status says so, and the steps before
+    are kept.
+
+    In motion a coefficient of friction above 100 counts as 100: no load that leans by less than
+    89.4 degrees from a face's normal slides on it.
+
+    Raises SimulationError for a `dt` outside 1e-12 to 1e12 s, a `restitution` outside 0 to 1 or
+    velocities that are not finite or beyond 1e12, and SceneError for bodies that overlap, or facets
+    that are not 3 to 1000.
+
+    >>> import drystone as ds
+    >>> run = ds.simulate(ds.scenes.fall7(), steps=240)
+    >>> run.moving
+    ('6', '7')
+    >>> run.poses.shape
+    (241, 8, 3)
+    >>> boxes = ds.scenes.fall7().extruded(1.0)
+    >>> run = ds.simulate(boxes, steps=240)
+    >>> run.moving
+    ('6', '7')
+    >>> run.poses.shape
+    (241, 8, 7)
+    """
+    if not 0 <= steps <= MOST_STEPS:
+        raise _core.SimulationError(f"steps is {steps}: it must be from 0 to {MOST_STEPS}")
+    if not isinstance(velocities or {}, Mapping):
+        raise TypeError(
+            f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
+        )
+    cones = core_cones(facets, cone)
+    world = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
+    for name, velocity in (velocities or {}).items():
+        world.set_velocity(name, velocity_of(world, name, velocity))
+    start = Scene._of(world.scene)
+    return Run._of(world.run(steps, forces, progress), world, start)
+
+
+def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:
+    """The velocity of a body as floats: three in the plane, six in space."""
+    units = "m/s, m/s, rad/s" if world.dimension == 2 else "m/s three times, rad/s three times"
+    return numbers(value, 3 * world.dimension - 3, f'block "{name}": velocity', units)
+
+
+def numbers(value: float | Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
+    """`value` as so many floats, one may stand alone; SimulationError naming `what` otherwise."""
+    try:
+        found = tuple(map(float, (value,) if isinstance(value, int | float) else value))
+    except (TypeError, ValueError):
+        found = ()
+    if len(found) != count:
+        spelled = {1: "one", 2: "two", 3: "three", 6: "six"}[count]
+        noun = "number" if count == 1 else "numbers"
+        message = f"{what} must be {spelled} {noun} ({units}), not {value!r}"
+        raise _core.SimulationError(message)
+    return found

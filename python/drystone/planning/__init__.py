@@ -1,0 +1,1 @@
+"""In which order can it be taken apart?"""

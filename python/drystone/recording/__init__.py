@@ -1,0 +1,1 @@
+"""Plans, runs and scenes frame by frame: what pages play, and pictures of frames draw."""
