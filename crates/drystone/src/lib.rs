@@ -54,3 +54,8 @@ pub use mass_properties::MassProperties;
 pub use scene::{Body, BodyOptions, Scene, SceneOf};
 pub use scene_in_space::SceneInSpace;
 pub use structure::Structure;
+
+/// The first page of this crate; its example is run with the others.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct FirstPage;

@@ -51,3 +51,8 @@ pub use reuse::Start;
 pub use settings::Settings;
 pub use solution::{Solution, Status, residual};
 pub use solver::{Origin, Snapshot, Solver, SolverState};
+
+/// The first page of this crate; its example is run with the others.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct FirstPage;

@@ -23,9 +23,10 @@ mod world;
 
 use pyo3::prelude::*;
 
-#[pymodule]
+// Its classes are frozen, or locked while they are used (`guard`): Pythons without a global lock need none for them.
+#[pymodule(gil_used = false)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add("__version__", version())?;
     errors::add_to(module)?;
     module.add_class::<scene::Scene>()?;
     module.add_class::<scene::Body>()?;
@@ -70,4 +71,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(lcp::lcp_solve, module)?)?;
     module.add_function(wrap_pyfunction!(contact::contact_solve, module)?)?;
     Ok(())
+}
+
+/// The version as Python writes it: Cargo's `0.2.0-dev` is `0.2.0.dev0` there.
+fn version() -> String {
+    env!("CARGO_PKG_VERSION").replace("-dev", ".dev0")
 }

@@ -1,0 +1,124 @@
+"""What is packed: metadata that agree, licences of others, and no package without its pages."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import importlib.util
+import json
+import re
+import shutil
+import sys
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+import drystone as ds
+from conftest import ROOT
+
+tomllib = pytest.importorskip("tomllib", reason="Python 3.11 and newer read TOML")
+
+
+def _project() -> dict[str, Any]:
+    return tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+
+
+def _workspace() -> dict[str, Any]:
+    return tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]
+
+
+def _script(name: str) -> ModuleType:
+    """A program of the folder release/, as a module."""
+    spec = importlib.util.spec_from_file_location(f"release_{name}", ROOT / f"release/{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module  # dataclasses look their module up
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_one_version() -> None:
+    """Cargo's, as Python writes it."""
+    declared = _workspace()["package"]["version"]
+    assert ds.__version__ == declared.replace("-dev", ".dev0")
+    assert importlib.metadata.version("drystone") == ds.__version__
+    for name, crate in _workspace()["dependencies"].items():
+        if name.startswith("drystone"):
+            assert crate["version"] == declared
+
+
+def test_one_address() -> None:
+    """The repository's is that of Cargo.toml, wherever it is written."""
+    address = _workspace()["package"]["repository"]
+    for name, url in _project()["urls"].items():
+        assert url.startswith(address), name
+    assert f'repository-code: "{address}"' in (ROOT / "CITATION.cff").read_text()
+
+
+def test_few_packages_are_required() -> None:
+    assert sorted(re.findall(r"^\w+", need)[0] for need in _project()["dependencies"]) == [
+        "numpy",
+        "rich",
+        "typer",
+    ]
+
+
+def test_all_and_dev_hold_the_other_extras() -> None:
+    extras = _project()["optional-dependencies"]
+    features = extras.keys() - {"all", "test", "dev", "bench"}
+    named = re.fullmatch(r"drystone\[([\w,]+)\]", extras["all"][0])
+    assert named is not None
+    assert set(named[1].split(",")) == features
+    for extra in (*features, "test"):
+        assert set(extras[extra]) <= set(extras["dev"]), extra
+
+
+def test_a_checkout_without_pages_is_not_packed(tmp_path: Path) -> None:
+    backend = _script("backend")
+    for name in backend.MADE:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    backend.check(backend.MADE, tmp_path)
+    (tmp_path / "python/drystone/viewer/space.html").unlink()
+    with pytest.raises(SystemExit, match=r"lacks .*space\.html \(run: make build\)$"):
+        backend.check(backend.MADE, tmp_path)
+
+
+def test_everything_that_is_made_is_included() -> None:
+    included = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["maturin"]["include"]
+    formats = {one["path"]: one["format"] for one in included}
+    for name in _script("backend").MADE:
+        assert "sdist" in formats[name], name
+
+
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="cargo tells what is linked")
+def test_every_linked_crate_has_a_licence() -> None:
+    crates = _script("notices").crates()
+    names = {crate.name for crate in crates}
+    assert {"faer", "parry2d-f64", "parry3d-f64", "pyo3", "rayon"} <= names
+    # Only built with, only tested with, only ours.
+    assert not names & {"pyo3-macros", "proptest", "drystone"}
+    assert all(crate.texts and all(crate.texts) for crate in crates)
+
+
+def test_what_is_bundled_has_a_licence() -> None:
+    notices = _script("notices")
+    if not (ROOT / "viewer/node_modules/three").is_dir():
+        pytest.skip("the viewer's packages are not here")
+    (three,) = notices.bundled()
+    assert three.name == "three"
+    wanted = json.loads((ROOT / "viewer/package.json").read_text())["devDependencies"]["three"]
+    assert three.version == wanted
+    page = notices.written([three, three])
+    assert page.count("three.js authors") == 1
+
+
+def test_a_crate_without_a_licence_file_gets_the_standard_text() -> None:
+    notices = _script("notices")
+    text = notices._standard("tiny", "MIT OR Apache-2.0", ["A. Nobody"])
+    assert text
+    assert "Copyright (c) A. Nobody" in notices._standard("tiny", "MIT", ["A. Nobody"])
+    with pytest.raises(notices.NoticesError, match="tiny has no licence file"):
+        notices._standard("tiny", "WTFPL", [])
