@@ -129,3 +129,13 @@ def test_tables_are_cut() -> None:
     assert steps == [10, 20, 30, 40, 50]
     assert "5 of 50 steps" in run.table(5)
     assert len(ds.simulate(ds.scenes.fall7(), steps=0).table().splitlines()) == 2
+
+
+def test_tables_do_not_show_what_rounding_left() -> None:
+    """Upright blocks press straight down: 0, not 5.551e-17 or -0."""
+    scene = ds.Scene(friction=0.5)
+    scene.add_box((0, 0.5), (1, 1), name="pier", fixed=True)
+    scene.add_box((0.6, 1.1), (2, 0.2), name="plank")
+    scene.add_box((0, 1.6), (0.8, 0.8), name="weight")
+    lines = ds.check(scene).table().splitlines()[2:]
+    assert [line.split()[-1] for line in lines] == ["0"] * 4

@@ -24,6 +24,10 @@ IN_JSON = "--json lists all"
 IN_PYTHON = "rows= shows more"
 """The same in Python."""
 
+NOTHING = 1e-9
+"""A number smaller than this share of the largest of its kind is printed as 0: forces balance every
+block to 1e-9, so that it says nothing."""
+
 WIDE = 1_000_000
 """Columns of what is no terminal: a program that reads lines wants them whole."""
 
@@ -87,12 +91,13 @@ def _force_table(verdict: Verdict, rows: int, more: str) -> Table:
     axes = "xyz"[: verdict.scene.dimension]
     metres = [f"{axis} [m]" for axis in axes]
     made = table("contact", *metres, "normal [N]", "tangential [N]")
-    for force in verdict.forces[:rows]:
+    forces = verdict.forces[:rows]
+    largest = max((force.normal_force for force in forces), default=0.0)
+    for force in forces:
         made.add_row(
             f"{shown(force.a)} - {shown(force.b)}",
             *(f"{value:.4g}" for value in force.point),
-            f"{force.normal_force:.4g}",
-            f"{force.tangential_force:.4g}",
+            *(_cell(value, largest) for value in (force.normal_force, force.tangential_force)),
         )
     return cut(made, len(verdict.forces), rows, more)
 
@@ -103,7 +108,7 @@ def _fall_table(verdict: Verdict, rows: int, more: str) -> Table:
         titles = [f"{axis} [m/s²]" for axis in "xyz"] + [f"turns {axis} [rad/s²]" for axis in "xyz"]
     made = table("falls", *titles)
     for name in verdict.falling[:rows]:
-        made.add_row(shown(name), *(f"{value:.4g}" for value in verdict.acceleration(name)))
+        made.add_row(shown(name), *_cells(verdict.acceleration(name)))
     return cut(made, len(verdict.falling), rows, more)
 
 
@@ -114,8 +119,19 @@ def motion_table(motion: Mapping[str, NDArray[np.float64]], dimension: int) -> T
         titles = [f"{axis} [m/s]" for axis in "xyz"] + [f"turns {axis} [rad/s]" for axis in "xyz"]
     made = table("collapses", *titles)
     for name in list(motion)[:MOST_ROWS]:
-        made.add_row(shown(name), *(f"{value:.4g}" for value in motion[name]))
+        made.add_row(shown(name), *_cells(motion[name]))
     return cut(made, len(motion))
+
+
+def _cells(values: NDArray[np.float64]) -> list[str]:
+    """The numbers of one block's motion."""
+    largest = float(abs(values).max(initial=0.0))
+    return [_cell(value, largest) for value in values.tolist()]
+
+
+def _cell(value: float, largest: float) -> str:
+    """Four digits; what rounding left beside the largest number of its kind is 0."""
+    return f"{value:.4g}" if abs(value) > NOTHING * largest else "0"
 
 
 def plan_table(plan: Plan, rows: int) -> Table:
