@@ -27,7 +27,7 @@ answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
 
 .NOTPARALLEL:
 .PHONY: help demo test build lint style rust-tests viewer-tests viewer-lint python-tests types deny \
-    audit notices wheel sdist tools test-tools clean
+    audit docs docs-test notices pictures wheel sdist tools test-tools clean
 
 help:
 	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
@@ -35,6 +35,7 @@ help:
 	@echo "make build   only build, into .venv"
 	@echo "make lint    only formatting, lints and types"
 	@echo "make wheel   the package that users install, into dist/; make sdist the one that needs Rust"
+	@echo "make docs    the site, into out/site; make docs-test also checks its links"
 	@echo "make audit   known vulnerabilities of what the Rust crates depend on (needs cargo-deny)"
 	@echo "make clean   remove what the others made"
 
@@ -70,6 +71,25 @@ python-tests: build
 lint: style types viewer-lint deny
 	@echo "== cargo clippy"
 	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
+
+# The site, with its notebooks run and the crates' own documentation in it.
+docs: build
+	@echo "== cargo doc"
+	@cargo doc --release --no-deps --quiet -p drystone -p drystone-lcp -p drystone-contact
+	@rm -rf out/rustdoc && mkdir -p out/rustdoc && cp -r target/doc out/rustdoc/rust
+	@echo "== mkdocs"
+	@$(BIN)/pip install "drystone[docs]"
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+	@echo "Done: open out/site/index.html, or run .venv/bin/mkdocs serve."
+
+docs-test: docs
+	@echo "== links of the site"
+	@$(BIN)/python website/check_links.py out/site
+
+# What the guide, the README and the first page show; a change of a drawing needs it.
+pictures: build
+	@$(BIN)/python website/films.py
+	@$(BIN)/python website/gallery.py
 
 # Licences and sources of the Rust crates (deny.toml), where cargo-deny is installed.
 deny: tools

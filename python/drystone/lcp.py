@@ -54,7 +54,7 @@ METHODS = ("dantzig", "lemke", "block")
 class Start:
     """The solution of a sub-problem, as a start for a larger one.
 
-    The sub-problem is M[indices][:, indices], q[indices] of the larger problem, and `z` its
+    The sub-problem is `M[indices][:, indices]`, `q[indices]` of the larger problem, and `z` its
     solution, in the order of `indices`.
     """
 
@@ -104,7 +104,7 @@ class Solution:
     """Rows that were present, ascending: all n of them but for a `Solver`."""
 
     def restricted(self) -> Solution:
-        """The solution of M[rows][:, rows], q[rows]: the vectors on `rows` only."""
+        """The solution of `M[rows][:, rows]`, `q[rows]`: the vectors on `rows` only."""
         ray = None if self.ray is None else self.ray[self.rows]
         z, w, rows = self.z[self.rows], self.w[self.rows], np.arange(self.rows.size)
         return replace(self, z=z, w=w, ray=ray, rows=rows)
@@ -198,8 +198,9 @@ class Solver:
 
     `M` is the complete (n, n) matrix, a symmetric positive semidefinite NumPy array or SciPy sparse
     matrix, singular or not, and `q` has length n. No row is present at first. Every `solve` is for
-    M[rows][:, rows], q[rows] on the rows present, starts from what the solver had (the active set
-    and its factor) and gives the answer of a fresh solve: w is the same, and z where it is unique.
+    `M[rows][:, rows]`, `q[rows]` on the rows present. It starts from what the solver had, the
+    active set and its factor, and gives the answer of a fresh solve: w is the same, and z where it
+    is unique.
 
     >>> import numpy as np
     >>> from drystone import lcp

@@ -16,7 +16,7 @@ import drystone as ds
 from conftest import ROOT
 
 FLAGS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
-GUIDE = sorted((ROOT / "docs" / "guide").glob("*.md"))
+FOLDERS = ("docs", "docs/guide", "docs/for", "docs/theory")
 MODULES = sorted(
     module.name
     for module in pkgutil.walk_packages(ds.__path__, "drystone.")
@@ -29,7 +29,10 @@ def test_docstrings(name: str) -> None:
     assert doctest.testmod(importlib.import_module(name), optionflags=FLAGS).failed == 0
 
 
-PAGES = ["README.md", "CONTRIBUTING.md", *sorted(f"docs/guide/{path.name}" for path in GUIDE)]
+IN_DOCS = sorted(
+    f"{folder}/{path.name}" for folder in FOLDERS for path in (ROOT / folder).glob("*.md")
+)
+PAGES = ["README.md", "CONTRIBUTING.md", *IN_DOCS]
 
 
 @pytest.mark.parametrize("page", PAGES)
