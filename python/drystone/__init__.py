@@ -23,6 +23,8 @@ if TYPE_CHECKING:
         StepError,
         __version__,
     )
+    from drystone.common.errors import StaticsError
+    from drystone.common.extras import MissingExtraError
     from drystone.equilibrium.contact_force import ContactForce, ContactForces
     from drystone.equilibrium.limits import Limit, LimitEnd, limit
     from drystone.equilibrium.margins import Margin, margin
@@ -35,7 +37,6 @@ if TYPE_CHECKING:
     from drystone.planning.answer import Blocked, Plan, TestRecord
     from drystone.planning.search import plan
     from drystone.scene import Body, Contact, Load, Piece, Scene, Solid
-    from drystone.statics import StaticsError
 
 __all__ = [
     "Blocked",
@@ -53,6 +54,7 @@ __all__ = [
     "Load",
     "ManyPlans",
     "Margin",
+    "MissingExtraError",
     "Piece",
     "Plan",
     "Run",
@@ -101,6 +103,7 @@ _HOMES = {
     "Load": "drystone.scene",
     "ManyPlans": "drystone.many",
     "Margin": "drystone.equilibrium.margins",
+    "MissingExtraError": "drystone.common.extras",
     "Piece": "drystone.scene",
     "Plan": "drystone.planning.answer",
     "Run": "drystone.motion.run",
@@ -110,7 +113,7 @@ _HOMES = {
     "SimulationError": "drystone._core",
     "Solid": "drystone.scene",
     "StartError": "drystone._core",
-    "StaticsError": "drystone.statics",
+    "StaticsError": "drystone.common.errors",
     "Structure": "drystone.equilibrium.structure",
     "StepError": "drystone._core",
     "StepRecord": "drystone.motion.world",

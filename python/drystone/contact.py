@@ -28,10 +28,17 @@ import numpy as np
 from drystone import _core
 from drystone._core import ContactError
 from drystone.common.arrays import floats, vector
+from drystone.common.compressed import (
+    Compressed,
+    by_columns,
+    by_rows,
+    is_sparse,
+    of_diagonal_blocks,
+    times,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-    from scipy import sparse
 
 __all__ = ["ContactError", "Solution", "solve"]
 
@@ -104,7 +111,7 @@ def solve(
     """
     free = vector(free, "free", ContactError)
     mass = _mass(M, free.size)
-    jacobian = _matrix(J, "J")
+    jacobian = by_rows(J, "J", ContactError)
     if jacobian.shape[1] != free.size:
         raise ContactError(
             f"J has {jacobian.shape[1]} columns, but free has {free.size} entries: "
@@ -116,7 +123,7 @@ def solve(
     contacts = jacobian.shape[0] // d
     friction, offsets, shares = (_each(law, name, contacts) for name, law in laws.items())
     if np.any(shares):
-        offsets = _rebounding(jacobian[::d] @ free, offsets, shares)
+        offsets = _rebounding(times(jacobian, free)[::d], offsets, shares)
     begin = start.impulses if isinstance(start, Solution) else start
     if tolerance is not None and not tolerance >= 0:
         raise ContactError(f"tolerance is {tolerance}: it must be zero or more, m/s")
@@ -124,8 +131,8 @@ def solve(
         raise ContactError(f"scale is {scale}: it must be zero or more, m/s")
     core = _core.contact_solve(
         d,
-        _compressed(mass.tocsc()),
-        _compressed(jacobian),
+        mass.arrays,
+        jacobian.arrays,
         friction,
         free,
         offsets,
@@ -185,44 +192,20 @@ def _rebounding(
     return np.where((share > 0) & (normal < 0) & (normal + offset < 0), share * normal, offset)
 
 
-def _mass(M: Any, n: int) -> sparse.csc_array:
-    from scipy import sparse
-
-    if sparse.issparse(M):
-        mass = _matrix(M, "M")
+def _mass(M: Any, n: int) -> Compressed:
+    if is_sparse(M):
+        mass = by_columns(M, "M", ContactError)
     else:
         array = floats(M, "M", ContactError)
         if array.ndim == 1:
-            diagonal = sparse.dia_array((array[None, :], [0]), shape=(array.size, array.size))
-            mass = sparse.csr_array(diagonal)
+            mass = of_diagonal_blocks(array.reshape(-1, 1, 1))
         elif array.ndim == 3 and array.shape[1] == array.shape[2]:
-            blocks = sparse.block_diag(list(array)) if len(array) else np.empty((0, 0))
-            mass = sparse.csr_array(blocks)
+            mass = of_diagonal_blocks(array)
         else:
-            mass = _matrix(array, "M")
+            mass = by_columns(array, "M", ContactError)
     if mass.shape != (n, n):
         raise ContactError(
             f"M is of shape {mass.shape}, but free has {n} entries: "
             "give a row and a column for each"
         )
     return mass
-
-
-def _matrix(matrix: Any, what: str) -> sparse.csr_array:
-    from scipy import sparse
-
-    if not sparse.issparse(matrix):
-        matrix = floats(matrix, what, ContactError)
-    if matrix.ndim != 2:
-        raise ContactError(f"{what} must be a matrix, not of shape {matrix.shape}")
-    if matrix.dtype.kind not in "fiub":
-        raise ContactError(f"{what} must hold real numbers, not {matrix.dtype}")
-    rows = sparse.csr_array(matrix, dtype=np.float64, copy=True)
-    rows.sum_duplicates()
-    return rows
-
-
-def _compressed(
-    matrix: Any,
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    return matrix.indptr.astype(np.int64), matrix.indices.astype(np.int64), matrix.data

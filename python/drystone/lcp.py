@@ -28,10 +28,10 @@ import numpy as np
 from drystone import _core
 from drystone._core import LcpError, StartError
 from drystone.common.arrays import floats, vector
+from drystone.common.compressed import by_columns
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-    from scipy import sparse
     from typing_extensions import Self
 
 __all__ = [
@@ -154,7 +154,7 @@ def solve(
     if method not in METHODS:
         raise LcpError(f"unknown method {method!r}: choose one of {', '.join(METHODS)}")
     _require_limit(pivot_limit)
-    indptr, indices, data = _compressed_columns(M)
+    indptr, indices, data = by_columns(M, "M", LcpError, square=True).arrays
     core = _core.lcp_solve(
         indptr,
         indices,
@@ -233,7 +233,9 @@ class Solver:
 
     def __init__(self, M: Any, q: ArrayLike, pivot_limit: int | None = None) -> None:
         _require_limit(pivot_limit)
-        self._core = _core.LcpSolver(*_compressed_columns(M), _vector(q, "q"), pivot_limit)
+        self._core = _core.LcpSolver(
+            *by_columns(M, "M", LcpError, square=True).arrays, _vector(q, "q"), pivot_limit
+        )
         self._n = len(self._core.q())
 
     @classmethod
@@ -257,15 +259,14 @@ class Solver:
         array([ 3., -1.])
         """
         _require_limit(pivot_limit)
-        columns = _columns(G, "G")
+        columns = by_columns(G, "G", LcpError)
         W, h = _vector(W, "W"), _vector(h, "h")
         if not columns.shape[0] == W.size == h.size:
             raise LcpError(
                 f"G has {columns.shape[0]} rows but W has {W.size} entries and h has {h.size}: "
                 "give one of each for every row"
             )
-        arrays = columns.indptr.astype(np.int64), columns.indices.astype(np.int64), columns.data
-        return cls._of(_core.LcpSolver.from_generators(*arrays, W, h, pivot_limit))
+        return cls._of(_core.LcpSolver.from_generators(*columns.arrays, W, h, pivot_limit))
 
     @classmethod
     def _of(cls, core: _core.LcpSolver) -> Self:
@@ -372,31 +373,6 @@ def _indices(rows: ArrayLike) -> NDArray[np.int64]:
     if np.any(indices < 0):
         raise LcpError(f"row {indices.min()} is negative")
     return np.ascontiguousarray(indices, dtype=np.int64)
-
-
-def _compressed_columns(
-    M: Any,
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
-    """(indptr, indices, data) of a square matrix: rows in order and without repetition."""
-    columns = _columns(M, "M")
-    if columns.shape[0] != columns.shape[1]:
-        raise LcpError(f"M must be a square matrix, not of shape {columns.shape}")
-    return columns.indptr.astype(np.int64), columns.indices.astype(np.int64), columns.data
-
-
-def _columns(matrix: Any, what: str) -> sparse.csc_array:
-    from scipy import sparse
-
-    if not sparse.issparse(matrix):
-        matrix = _floats(matrix, what)
-    if matrix.ndim != 2:
-        square = "square " if what == "M" else ""
-        raise LcpError(f"{what} must be a {square}matrix, not of shape {matrix.shape}")
-    if matrix.dtype.kind not in "fiub":
-        raise LcpError(f"{what} must hold real numbers, not {matrix.dtype}")
-    columns = sparse.csc_array(matrix, dtype=np.float64, copy=True)
-    columns.sum_duplicates()
-    return columns
 
 
 def _vector(value: ArrayLike, what: str) -> NDArray[np.float64]:

@@ -15,12 +15,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import highspy
 import numpy as np
 
 from drystone import _core
-from drystone._core import DrystoneError
 from drystone.common.cones import CONES, FACETS
+from drystone.common.errors import StaticsError
+from drystone.common.extras import extra
+
+with extra("lp", "stability tests by linear programs"):
+    import highspy
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,10 +41,6 @@ RESCUES: tuple[dict[str, str | int], ...] = (
 """What is tried, in this order, where the primal simplex method ends without an answer: the
 interior point method (which without presolve seldom proves a model infeasible), then the dual
 simplex method."""
-
-
-class StaticsError(DrystoneError):
-    """None of HiGHS's methods decided a linear program."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -114,7 +114,7 @@ BAD = {
     "nan in M": ([[NAN]], [1.0], "M"),
     "infinity in q": ([[1.0]], [INF], "q"),
     "M not square": ([[1.0, 2.0]], [1.0], "square"),
-    "M a vector": ([1.0], [1.0], "square"),
+    "M a vector": ([1.0], [1.0], "M must be a matrix of rows"),
     "q too long": ([[1.0]], [1.0, 2.0], "q"),
     "q a matrix": ([[1.0]], [[1.0]], "vector"),
     "complex M": ([[1j]], [1.0], "real"),

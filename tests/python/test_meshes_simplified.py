@@ -165,7 +165,7 @@ def test_what_cannot_be_simplified_says_so(monkeypatch: pytest.MonkeyPatch) -> N
     with pytest.raises(MeshError, match="simplify must be a positive length"):
         read_part(CUBE, simplify=-1)
     monkeypatch.setitem(sys.modules, "manifold3d", None)
-    with pytest.raises(MeshError, match=r'pip install "drystone\[meshes\]"'):
+    with pytest.raises(ds.MissingExtraError, match=r'pip install "drystone\[meshes\]"'):
         read_part(SCANS["cube"][0], simplify=0.01)
 
 

@@ -50,11 +50,14 @@ def test_one_version() -> None:
 
 
 def test_one_address() -> None:
-    """The repository's is that of Cargo.toml, wherever it is written."""
+    """The repository's is that of Cargo.toml, the site's that of mkdocs.yml, wherever written."""
     address = _workspace()["package"]["repository"]
+    site = re.search(r"^site_url: (\S+)$", (ROOT / "mkdocs.yml").read_text(), re.MULTILINE)
+    assert site is not None
     for name, url in _project()["urls"].items():
-        assert url.startswith(address), name
+        assert url.startswith(site[1] if name == "Documentation" else address), name
     assert f'repository-code: "{address}"' in (ROOT / "CITATION.cff").read_text()
+    assert f"repo_url: {address}\n" in (ROOT / "mkdocs.yml").read_text()
 
 
 def test_few_packages_are_required() -> None:
@@ -67,7 +70,7 @@ def test_few_packages_are_required() -> None:
 
 def test_all_and_dev_hold_the_other_extras() -> None:
     extras = _project()["optional-dependencies"]
-    features = extras.keys() - {"all", "test", "dev", "bench"}
+    features = extras.keys() - {"all", "test", "dev", "docs", "bench"}
     named = re.fullmatch(r"drystone\[([\w,]+)\]", extras["all"][0])
     assert named is not None
     assert set(named[1].split(",")) == features

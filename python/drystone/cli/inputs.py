@@ -10,9 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from drystone.cli.errors import InputError
+from drystone.common.extras import require
 
 if TYPE_CHECKING:
     from drystone.scene import Scene
+
+PICTURES = (".svg", ".png")
 
 
 def load_scene(text: str) -> Scene:
@@ -88,11 +91,14 @@ def python_name(name: str) -> str:
 
 
 def picture_path(path: Path | None, *others: str) -> Path | None:
-    """`path`, refused before any work if it ends in none of .svg, .png and `others`."""
-    endings = (".svg", ".png", *others)
+    """`path`, refused before any work if it ends in none of .svg, .png and `others`, or if what
+    draws it is not installed."""
+    endings = (*PICTURES, *others)
     if path is not None and path.suffix.lower() not in endings:
         known = f"{', '.join(endings[:-1])} or {endings[-1]}"
         raise InputError(f"{path}: a picture's name ends in {known}")
+    if path is not None and path.suffix.lower() in PICTURES:
+        require("pictures", "pictures")
     return path
 
 

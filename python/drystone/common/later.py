@@ -12,6 +12,8 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
+from drystone.common.extras import MissingExtraError
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -59,6 +61,15 @@ save_figure: Later[None] = Later()
 
 svg_of: Later[str] = Later()
 """Of a figure: the text of an SVG image."""
+
+
+def svg_if_possible(thing: object) -> str | None:
+    """The picture of a scene or an answer for a notebook, which shows its text if there is none."""
+    try:
+        return svg_of(figure(thing))
+    except MissingExtraError:
+        return None
+
 
 page: Later[Page] = Later()
 """Of a scene, a plan or a run: its page."""

@@ -155,8 +155,8 @@ class Limit:
         """Write a picture of the forces and of the collapse at the greatest factor (.svg, .png)."""
         later.save_figure(later.figure(self), path)
 
-    def _repr_svg_(self) -> str:
-        return later.svg_of(later.figure(self))
+    def _repr_svg_(self) -> str | None:
+        return later.svg_if_possible(self)
 
 
 def limit(

@@ -217,8 +217,8 @@ class Verdict:
         """Write a picture of the forces, or of the fall; the name ends in .svg or .png."""
         later.save_figure(later.figure(self), path)
 
-    def _repr_svg_(self) -> str:
-        return later.svg_of(later.figure(self))
+    def _repr_svg_(self) -> str | None:
+        return later.svg_if_possible(self)
 
 
 def check(

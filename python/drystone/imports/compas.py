@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drystone.imports.collected import Collected, FormatError
-from drystone.imports.compas_data import inner, kind_of, matrix_of
+from drystone.imports.compas_data import inner, matrix_of
+from drystone.imports.compas_kind import kind_of
 from drystone.imports.fields import entries, finite
 from drystone.meshes import MeshError
 from drystone.meshes.part import Part, part_from
@@ -25,16 +26,6 @@ if TYPE_CHECKING:
 PLANE = 3e-7
 """A face whose corners are within this share of its extent of a plane is plane: five times the
 rounding of single precision, as for meshes."""
-
-
-def is_assembly(data: Any) -> bool:
-    """Whether JSON data is an assembly (of COMPAS 2, or of COMPAS 1 with its other keys), a model
-    of compas_model or compas_dem, or one mesh."""
-    kind = kind_of(data)
-    if kind.endswith(("Assembly", "Model")) or kind == "Mesh":
-        return True
-    found = data.get("data", data.get("value")) if kind else None
-    return isinstance(found, dict) and {"elements", "graph"} <= found.keys()
 
 
 def read(data: Any, collected: Collected, **options: Any) -> str:

@@ -36,13 +36,6 @@ def data_of(value: Any, depth: int = 0) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def kind_of(value: Any) -> str:
-    """The class of an object by its data, as in "Mesh"; empty for other data."""
-    if not isinstance(value, dict):
-        return ""
-    return str(value.get("dtype", value.get("datatype", ""))).rsplit("/", 1)[-1]
-
-
 def inner(value: Any) -> dict[str, Any]:
     """The data of a COMPAS object, with or without its wrapping."""
     if not isinstance(value, dict):

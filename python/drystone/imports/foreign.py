@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from drystone.imports.compas_kind import is_assembly
 from drystone.meshes.reading import ENDINGS
 
 MARKUP = (".xml", ".mjcf", ".urdf")
@@ -35,8 +36,6 @@ def kind_of(path: Path) -> str | None:
 
 
 def _kind_of_json(text: bytes) -> str | None:
-    from drystone.imports.compas import is_assembly
-
     try:
         data = json.loads(text)
         if is_assembly(data):

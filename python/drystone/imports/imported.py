@@ -13,6 +13,7 @@ import numpy as np
 from drystone._core import DrystoneError, SceneError
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
+from drystone.imports.compas_kind import is_assembly
 from drystone.imports.fields import read_json
 from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
@@ -241,7 +242,7 @@ def _read_json(path: Path, collected: Collected, taking: Taking) -> str:
 
 
 def _read_data(data: Any, path: Any, collected: Collected, taking: Taking) -> str:
-    if compas.is_assembly(data):
+    if is_assembly(data):
         return compas.read(data, collected, **taking.for_meshes())
     if isinstance(data, dict) and "parts" in data:
         folder.read_manifest(Path(path), collected, **taking.for_meshes())

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drystone.common.extras import extra
 from drystone.imports.collected import FormatError
 from drystone.imports.markup import values
 from drystone.imports.mjcf_frames import Frames
@@ -136,7 +137,8 @@ class Meshes:
 
 
 def _builtin(mesh: dict[str, str]) -> tuple[NDArray[np.float64], None]:
-    import trimesh
+    with extra("meshes", "files of other tools"):
+        import trimesh
 
     kind, given = mesh["builtin"], values(mesh.get("params", ""), None, "params")
     if kind != "sphere":

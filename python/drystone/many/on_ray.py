@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from drystone.common.extras import extra
 from drystone.many import work
 from drystone.many.engine import AHEAD, EngineError, Take, cores, readable
 from drystone.many.jobs import Job
@@ -77,12 +78,8 @@ def _cpus(ray: Any) -> int:
 @contextmanager
 def _connected(address: str | None, workers: int | None) -> Iterator[Any]:
     """Ray, connected; what was connected or started here is let go of at the end."""
-    try:
+    with extra("ray", "plans on a cluster"):
         import ray
-    except ImportError:
-        raise EngineError(
-            "engine 'ray' needs Ray, which is not installed: pip install \"drystone[ray]\""
-        ) from None
     if ray.is_initialized():
         if address is not None:
             raise EngineError(

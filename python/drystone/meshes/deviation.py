@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import ConvexHull, cKDTree
 
+from drystone.common.extras import extra
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -70,7 +72,8 @@ class Divided:
 
     def _farthest(self, points: NDArray[np.float64], bound: float) -> float:
         """The greatest distance of points (k, 3) from this surface, metres."""
-        from trimesh.triangles import closest_point
+        with extra("meshes", "simplified meshes"):
+            from trimesh.triangles import closest_point
 
         farthest, groups = 0.0, len(points) // AT_ONCE + 1
         for first in range(groups):

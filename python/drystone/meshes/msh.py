@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drystone.common.extras import extra
 from drystone.meshes.errors import MeshError
 
 if TYPE_CHECKING:
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 def read_msh(path: Path) -> trimesh.Trimesh:
     """The surface in a file; MeshError if its size is not what its counts say."""
-    import trimesh
+    with extra("meshes", "mesh files"):
+        import trimesh
 
     data = path.read_bytes()
     counts = np.frombuffer(data[:16], dtype="<i4")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from drystone.common.extras import extra
 from drystone.meshes.errors import MeshError
 from drystone.meshes.msh import read_msh
 from drystone.meshes.obj import Obj, Section, read_obj
@@ -77,7 +78,8 @@ def load(path: Path, whole: bool = True) -> Any:
     """What trimesh reads: one mesh, or unless it is to be `whole`, perhaps a scene."""
     if path.suffix.lower() == ".msh":
         return read_msh(path)
-    import trimesh
+    with extra("meshes", "mesh files"):
+        import trimesh
 
     reader = trimesh.load_mesh if whole else trimesh.load
     try:

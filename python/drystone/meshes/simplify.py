@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial import QhullError
 
+from drystone.common.extras import extra
 from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.deviation import Divided
 from drystone.meshes.errors import MeshError
@@ -161,12 +162,8 @@ def _may_be_near(pieces: list[NDArray[np.float64]], volume: float, bound: float)
 
 def _decimated(surface: Surface, middle: NDArray[np.float64], bound: float) -> list[Mesh]:
     """The surface about its middle in fewer and fewer triangles, from the fewest on."""
-    try:
+    with extra("meshes", "simplified meshes"):
         import manifold3d
-    except ImportError:
-        raise MeshError(
-            'simplifying needs the package manifold3d: pip install "drystone[meshes]"'
-        ) from None
     vertices = np.ascontiguousarray(surface.vertices - middle)
     mesh = manifold3d.Mesh64(vertices, np.ascontiguousarray(surface.triangles, dtype=np.uint64))
     manifold = manifold3d.Manifold(mesh)

@@ -3,25 +3,28 @@
 And the questions that their section VI leaves open: what reuse gives to other methods.
 """
 
-from drystone.paper.figures import write_figures
-from drystone.paper.methods import (
-    Cases,
-    Measurement,
-    measure_methods,
-    methods_as_dicts,
-    methods_table,
-    paper_scenes,
-    write_methods_csv,
-)
-from drystone.paper.motion import (
-    MOTIONS,
-    Measured,
-    measure_motions,
-    motion_tables,
-    write_motion_csv,
-)
-from drystone.paper.motion_figures import write_motion_figures
-from drystone.paper.table import EXAMPLES, Example, Row, as_tables, measure, write_csv
+from drystone.common.extras import extra
+
+with extra("all", "published measurements"):
+    from drystone.paper.figures import write_figures
+    from drystone.paper.methods import (
+        Cases,
+        Measurement,
+        measure_methods,
+        methods_as_dicts,
+        methods_table,
+        paper_scenes,
+        write_methods_csv,
+    )
+    from drystone.paper.motion import (
+        MOTIONS,
+        Measured,
+        measure_motions,
+        motion_tables,
+        write_motion_csv,
+    )
+    from drystone.paper.motion_figures import write_motion_figures
+    from drystone.paper.table import EXAMPLES, Example, Row, as_tables, measure, write_csv
 
 __all__ = [
     "EXAMPLES",

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from drystone import pictures, scenes
+from drystone.common.extras import extra
 from drystone.motion.simulation import simulate
 from drystone.paper.motion import MODES, Measured
 from drystone.pictures import style
@@ -86,7 +87,8 @@ def order_of_error() -> Figure:
 
 def _pendulum() -> float:
     """Turn of the block after `TIME`: angle'' = 3 g sin(angle) / (4 r) about its corner."""
-    from scipy.integrate import solve_ivp
+    with extra("all", "published measurements"):
+        from scipy.integrate import solve_ivp
 
     arm = 0.5 * np.hypot(SLOPE["width"], SLOPE["height"])
     start = np.radians(SLOPE["angle_degrees"]) - np.arctan2(SLOPE["width"], SLOPE["height"])

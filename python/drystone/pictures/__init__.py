@@ -4,12 +4,15 @@ Figures are built without pyplot: no global state, no window, any thread. `save`
 `svg` gives the text of one.
 """
 
-from drystone.pictures.canvas import save, svg
-from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
-from drystone.pictures.graph import graph_figure
-from drystone.pictures.limits import limit_figure, margin_figure
-from drystone.pictures.pictured import figure_of
-from drystone.pictures.recording import frame_figure
+from drystone.common.extras import extra
+
+with extra("pictures", "pictures"):
+    from drystone.pictures.canvas import save, svg
+    from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
+    from drystone.pictures.graph import graph_figure
+    from drystone.pictures.limits import limit_figure, margin_figure
+    from drystone.pictures.pictured import figure_of
+    from drystone.pictures.recording import frame_figure
 
 __all__ = [
     "figure_of",

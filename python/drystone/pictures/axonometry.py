@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
+from drystone.pictures.outline import outline
 from drystone.pictures.patches import patches
 from drystone.scene import Solid
 
@@ -165,7 +165,7 @@ def shadows(bodies: Sequence[Solid], pieces: Sequence[Piece], view: View) -> lis
     for index, body in enumerate(bodies):
         points = view.flat(np.concatenate([p.corners for p in pieces if p.body == index]))
         middle = points.mean(axis=0)
-        hull = points[ConvexHull(points).vertices]
+        hull = outline(points)
         found.append(Shadow(body.name, body.fixed, (float(middle[0]), float(middle[1])), hull))
     return found
 

@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 
 from drystone.common.text import counted
 from drystone.pictures import style
@@ -19,6 +18,7 @@ from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.loads import draw_loads
 from drystone.pictures.moved import Moved
 from drystone.pictures.order_bar import draw_order_bar
+from drystone.pictures.outline import outline
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_dashed, draw_solids
 from drystone.report.overlaps import names_in, titled
@@ -139,7 +139,7 @@ def _draw_fall(
     moved = [
         flat(body.vertices + reach * ghost) for body, ghost in zip(falling, ghosts, strict=True)
     ]
-    draw_dashed(canvas, [points[ConvexHull(points).vertices] for points in moved])
+    draw_dashed(canvas, [outline(points) for points in moved])
 
 
 def _corner_moves(body: Solid, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:

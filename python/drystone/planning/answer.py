@@ -243,5 +243,5 @@ class Plan:
         """
         return later.page(self, progress, forces)
 
-    def _repr_svg_(self) -> str:
-        return later.svg_of(later.figure(self))
+    def _repr_svg_(self) -> str | None:
+        return later.svg_if_possible(self)

@@ -124,10 +124,9 @@ def _stability_test(
     """What the core's `plan` takes for `test`."""
     if test in ("reuse", "reuse-dantzig", "lcp"):
         return test
+    if test not in TESTS:
+        raise ValueError(f"unknown test {test!r}: choose one of {', '.join(TESTS)}")
     from drystone import statics
 
-    if test == "lp":
-        return statics.ColdProgram(statics.Equilibrium.of(scene, cones))
-    if test == "lp-warm":
-        return statics.WarmProgram(statics.Equilibrium.of(scene, cones))
-    raise ValueError(f"unknown test {test!r}: choose one of {', '.join(TESTS)}")
+    program = statics.WarmProgram if test == "lp-warm" else statics.ColdProgram
+    return program(statics.Equilibrium.of(scene, cones))

@@ -548,8 +548,8 @@ class Scene:
         """A page with the bodies, to turn and look into; save it, or let a notebook show it."""
         return later.page(self)
 
-    def _repr_svg_(self) -> str:
-        return later.svg_of(later.figure(self))
+    def _repr_svg_(self) -> str | None:
+        return later.svg_if_possible(self)
 
     def __copy__(self) -> Self:
         return self._of(self._core.copy())
