@@ -28,35 +28,40 @@ class Verdict:
     """The answer of `check`."""
 
     stable: bool
-    """An equilibrium within the friction cones exists. Without friction this is sufficient for
-    standing; with friction it is necessary."""
+    """Whether some contact forces within the friction cones balance every block.
+
+    Without friction such a structure stands. With friction it can stand: one without such forces
+    certainly falls, but one that has them may still find a way to move."""
     status: str
-    """"solved"; "borderline" if neither is proved, that it stands or that it falls (see `doubt`);
-    or why the solver stopped without an answer. `stable` is False unless it is solved.
+    """"solved"; "borderline" if it could be proved neither that it stands nor that it falls (see
+    `doubt`); or why the solver stopped without an answer. `stable` is False unless it is solved.
 
-    It stands if forces within the cones leave each block an imbalance of at most 1e-9 of the
-    largest force on it and 1e-6 of its own load. It falls if there is a motion that closes no
-    contact in which the loads do work by more than ten times what rounding could make of the
-    forces. Residuals are refined to 32 digits before both, or neither, are said to hold."""
+    "Stands" is proved by forces within the cones that balance each block: what they leave is at
+    most 1e-9 of the largest force on the block, and 1e-6 of its own load. "Falls" is proved by a
+    motion that closes no contact and in which the loads do work: at least ten times as much as
+    rounding of the forces could. Where both or neither seem to hold, the numbers are computed
+    again with 32 digits."""
     forces: ContactForces
-    """One entry a contact point of the bodies checked; computed when first read.
+    """The contact forces, one entry for each contact point; computed when first read.
 
-    Where faces meet, many forces hold a structure. These are the unique ones of least norm: of all
-    that do within the friction cones those that elastic layers between the faces would bear
-    (docs/theory/canonical-forces.md). They are as symmetric as the structure and its loads, and
-    the same for every method and order. Of what falls they are the ones of least norm under which
-    it has its `accelerations`. With `forces="any"` in `check` they are those that the verdict was
-    found with."""
+    Where whole faces meet, many sets of forces hold the same structure up. This is the one of least
+    norm, which thin elastic layers between the faces would find (docs/theory/canonical-forces.md).
+    There is only one. It is as symmetric as the structure and its loads, and does not depend on the
+    method or on the order of the blocks. Of a structure that falls it is the set of least norm
+    under which the blocks have their `accelerations`.
+
+    With `check(..., forces="any")` these are the forces that the verdict was found with."""
     names: tuple[str, ...]
     """The movable bodies checked, in the order of the rows of `accelerations`."""
     accelerations: NDArray[np.float64]
     """(bodies, 3): x and y in m/s^2, and the angular one in rad/s^2, counter-clockwise. In space
     (bodies, 6): x, y and z, and the angular ones about x, y and z.
 
-    Zero if and only if stable. Where a contact with friction slides they are those of the convex
-    model (maximum dissipation), in which it also opens: a block on a slope of angle a accelerates
-    by g sin(a - phi) in the direction phi = atan(friction) off the slope, not by Coulomb's
-    g (sin a - friction cos a) along it."""
+    Zero if and only if stable. Exact without friction, and where contacts open or stick. Where a
+    contact slides with friction they are those of a convex model (maximum dissipation), in which a
+    sliding contact also opens. So a block on a slope of angle a accelerates by g sin(a - phi), in a
+    direction that leaves the slope by the angle phi = atan(friction). By Coulomb's law, which
+    `simulate` has, it would be g (sin a - friction cos a) along the slope."""
     falling: tuple[str, ...]
     """Names of the bodies that accelerate."""
     pivots: int
@@ -64,24 +69,24 @@ class Verdict:
     major_cycles: int
     minor_cycles: int
     iterations: int
-    """Of the interior-point method: matrices factored. Zero where pivots alone gave the answer."""
+    """Matrices factored by the interior-point method. Zero if pivots alone gave the answer."""
     residual: float
-    """How far the computed solution is from satisfying its problem, in the problem's scale."""
+    """How far the computed solution is from satisfying its problem, in the problem's own scale."""
     virtual_motion: bool
-    """What falls is known, but not how it begins to: `accelerations` are those along a motion that
-    proves the fall, and `falling` are the blocks that move in it. So where masses differ by 1e7 and
-    more, and the complementarity problem cannot be solved to an accuracy that tells."""
+    """True if it is proved *that* it falls, but the true accelerations could not be computed (where
+    masses differ by 1e7 and more). `accelerations` are then those along the motion that proves the
+    fall, and `falling` are the blocks that move in it."""
     doubt: tuple[float, float] | None
-    """Of a borderline verdict: the least imbalance that any forces leave, in the load of a block,
-    and the power of the collapse, as a multiple of what rounding could make of the forces."""
+    """Of a borderline verdict two numbers: the least imbalance that any forces leave, as a share of
+    a block's load; and the power of the collapse, as a multiple of what rounding could make of the
+    forces. None of any other verdict."""
     seconds: float
     """Wall time of the solve."""
     scene: Scene = field(repr=False)
     """The scene checked."""
     certain: bool = True
-    """Whether Coulomb's round cone has the same verdict. True in the plane, without friction and
-    with round cones, and of what stands within inscribed pyramids or falls within circumscribed
-    ones. False where the pyramids' edges may have decided: see `cone` of `check`."""
+    """Whether the verdict is also that of Coulomb's round cones. False only where pyramids were
+    asked for, in space, and their edges may have decided: see `cone` of `check`."""
 
     @classmethod
     def _of(
@@ -119,21 +124,21 @@ class Verdict:
 
     @property
     def borders(self) -> tuple[ContactForce, ...]:
-        """The forces that need the normal of slightly rounded borders: those that bear where a
-        corner meets a corner, or in space an edge an edge along it or a corner an edge. Sharp
-        bodies could slip there, however small the push."""
+        """The forces at places where only borders meet: a corner and a corner, in space also two
+        edges along one another, or a corner and an edge. Their normals are those of slightly
+        rounded borders; perfectly sharp bodies could slip there, however small the push."""
         return self.forces.at_borders
 
     @property
     def unsupported(self) -> tuple[Unsupported, ...]:
-        """The falling blocks that nothing bears from below, each with the nearest of the bodies
-        that it does not touch. Looked for when asked for; empty of what stands."""
+        """The falling blocks that nothing carries from below, each with the nearest body that it
+        does not touch. Empty if the structure stands; computed when read."""
         return self._explanation().unsupported
 
     @property
     def near_misses(self) -> tuple[NearMiss, ...]:
-        """Pairs of bodies of which one falls and that do not touch, but would with a contact
-        tolerance ten times larger. Looked for when asked for; empty of what stands."""
+        """Pairs of bodies, one of them falling, that would touch if the contact tolerance were ten
+        times larger. Empty if the structure stands; computed when read."""
         return self._explanation().near_misses
 
     def _explanation(self) -> Explanation:
@@ -230,24 +235,34 @@ def check(
     cone: str = ROUND,
     forces: str = CANONICAL,
 ) -> Verdict:
-    """Compute the contact forces and accelerations of `scene` at rest.
+    """Does `scene` stand? With which contact forces, or how does it begin to fall?
 
-    `blocks` names the movable bodies of a sub-assembly; fixed bodies are always there. By default
-    every body is. Raises SceneError for an unknown name or bodies that overlap.
+    `blocks` names the movable bodies that are there; fixed bodies always are. By default every
+    body is.
 
-    `method` "equilibrium" looks for forces that balance the loads: by pivots, block by block from
-    the supports, as long as these are easy to find, else by the interior-point method, which gives
-    the accelerations of what falls as well. "interior" takes the interior-point method in any case.
-    "lcp" solves the complementarity problem by Dantzig's method, as the paper does. The verdict is
-    the same, and so are the forces unless `forces` is "any": then they are those that the method
-    has found, of the many that hold a redundant structure; see `Verdict.forces`.
+    `method` says how the answer is found; all give the same verdict:
 
-    In space `cone` "round" takes Coulomb's cones as they are. The others are pyramids of `facets`
-    edges: "inscribed" ones lie within the round cones, so that a structure is never said to stand
-    because of them; "circumscribed" ones lie around, so that none is said to fall because of them.
-    "both" asks the inscribed ones first and, if it falls there, the circumscribed ones: `certain`
-    is then false only where the two differ. More facets narrow that gap as 1 - cos(pi / facets).
-    "lcp" knows pyramids only, and takes inscribed ones for "round".
+    - "equilibrium" looks for forces that balance the loads: by pivots, block by block from the
+      supports, as long as that is easy, and otherwise by the interior-point method;
+    - "interior" takes the interior-point method at once;
+    - "lcp" solves the complementarity problem by Dantzig's method, as the paper does.
+
+    `forces` says which of the many sets of forces that may hold a redundant structure are given:
+    the unique one of least norm ("canonical"), or the one that the method happened to find ("any").
+    See `Verdict.forces`.
+
+    `cone` says which friction cones are taken in space:
+
+    - "round": Coulomb's cones as they are ("lcp" cannot, and takes "inscribed");
+    - "inscribed": pyramids of `facets` edges within them: what stands with these stands with round
+      cones;
+    - "circumscribed": pyramids around them: what falls with these falls with round cones;
+    - "both": the inscribed ones and, if it falls with them, the circumscribed ones too.
+      `Verdict.certain` is then False only if the two differ.
+
+    The more facets, the smaller the difference; it shrinks as 1 - cos(pi / facets).
+
+    Raises SceneError for an unknown name, or bodies that overlap.
 
     >>> import drystone as ds
     >>> verdict = ds.check(ds.scenes.column(4))

@@ -65,27 +65,32 @@ class Plan:
 
     found: bool
     status: str
-    """"found", "no_order" (none exists), "whole_falls" (the complete assembly does not stand),
-    "test_limit", "time_limit" or "interrupted"; with `clear_path` also "locked" (some blocks lock
-    one another in), with `hold` also "undecided" (none was found, but a structure was given up
-    under some hold, as no hand was free to take it or there were too many to try)."""
+    """How the search ended:
+
+    - "found": there is an order;
+    - "no_order": none exists, which is proved;
+    - "whole_falls": the complete structure does not stand;
+    - "locked", with `clear_path`: some blocks lock one another in;
+    - "undecided", with `hold`: no order was found, but not every way to hold was tried, so there
+      may be one;
+    - "test_limit", "time_limit", "interrupted": the search was stopped."""
     order: tuple[str, ...]
     """Names of the blocks, first removed first; empty if no order was found."""
     reached: tuple[str, ...]
-    """The largest sub-assembly that was built up and stands."""
+    """The blocks of the largest structure that could be built, in the order in which they were."""
     falls_next: tuple[str, ...]
-    """Without an order: the blocks any of which, added to `reached`, makes something fall."""
+    """Without an order: whichever of these blocks is added to `reached`, something falls."""
     holds: tuple[tuple[str, ...], ...]
-    """Of every structure on the way the blocks that are held: `holds[k]` while all but the first
-    k blocks of `order` stand. Without an order: of `reached`, the last put up taken away first."""
+    """`holds[k]` names the blocks that are held when the first k blocks of `order` are gone.
+    Without an order the same for `reached`, taken apart backwards."""
     directions: tuple[tuple[float, ...], ...]
-    """With `clear_path`: unit vectors along which the blocks of `order` leave, one by one; without
-    an order those of `reached`, the last put up first."""
+    """With `clear_path`: for each block of `order` the unit vector along which it leaves. Without
+    an order the same for `reached`, taken apart backwards."""
     blocked: tuple[Blocked, ...]
-    """With `clear_path` and no order: the blocks that lock one another in, or else those that
-    cannot be put on `reached` because something is in the way."""
+    """With `clear_path` and no order: the blocks that lock one another in; or, if none do, those
+    that cannot be added to `reached` because something is in the way."""
     tests: int
-    """Stability tests of proper sub-assemblies."""
+    """How many structures were tested, the complete one not among them."""
     pivots: int
     """Pivots of all these tests together."""
     test_seconds: float
@@ -95,16 +100,18 @@ class Plan:
     records: tuple[TestRecord, ...]
     """One entry a test, in order."""
     shortcuts: int
-    """Sub-assemblies known to fall or to lead nowhere without a test, by collapses found before."""
+    """How many structures were left out without a test, since an earlier collapse proved that they
+    fall or lead nowhere."""
     whole: Verdict | None
-    """The verdict on the complete assembly, which is checked first and counted apart; None if a
-    limit or an interrupt came before there was one."""
+    """The verdict on the complete structure, which is checked before the search; None if the search
+    was stopped before there was one."""
     test: str
     """The stability test used."""
     scene: Scene = field(repr=False)
     """The scene planned."""
     cones: tuple[int, str] = (FACETS, CONES[0])
-    """In space: edges of a friction cone, and on which side of the round cone they lie."""
+    """In space: the number of edges of the pyramids taken as friction cones, and whether they are
+    "inscribed" or "circumscribed"."""
 
     @classmethod
     def _of(cls, core: _core.Plan, test: str, scene: Scene, cones: tuple[int, str]) -> Plan:
@@ -139,9 +146,9 @@ class Plan:
     def hold_steps(self) -> list[tuple[str, str, int]]:
         """("hold" or "release", name, k): what hands do before block k of `order` is taken away.
 
-        New holds come before releases. A block that is taken away while it is held is released by
-        that: the hand that holds it carries it off. Without an order the steps are those of taking
-        `reached` apart.
+        A new block is held before an old one is released. A block that is taken away while it is
+        held is not released: the hand that holds it carries it off. Without an order the steps are
+        those of taking `reached` apart.
         """
         steps = [("hold", name, 0) for name in self.holds[0]] if self.holds else []
         for k, (held, then) in enumerate(zip(self.holds, (*self.holds, ())[1:], strict=True)):
@@ -235,11 +242,10 @@ class Plan:
     ) -> Page:
         """A page that steps through the order, with the contact forces of every structure.
 
-        They are those of least norm (see `Verdict.forces`), in long plans of every k-th structure;
-        with `forces="any"` those that are found first, which takes less time.
-
-        Save it, or let a notebook show it. The forces are computed here; `progress` is called with
-        (blocks placed, blocks in all) a few times a second.
+        Save it, or let a notebook show it. The forces are computed now: those of least norm (see
+        `Verdict.forces`), of long plans only for every second, third, ... structure. With
+        `forces="any"` they are those found first, which takes less time. `progress` is called a few
+        times a second with (blocks placed, blocks in all).
         """
         return later.page(self, progress, forces)
 

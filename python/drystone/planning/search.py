@@ -14,8 +14,8 @@ TESTS = ("reuse", "reuse-dantzig", "lcp", "lp", "lp-warm")
 """The stability tests `plan` knows: see there."""
 
 Progress = Callable[[int, int, int], None]
-"""Called with (tests done, blocks placed, blocks in all) a few times a second. Before the first
-test the complete assembly is checked, block by block: blocks placed are that check's."""
+"""Called a few times a second with (tests done, blocks placed, blocks in all). Before the first
+test the complete structure is checked, block by block, and "blocks placed" counts these."""
 
 
 def plan(
@@ -33,46 +33,53 @@ def plan(
     facets: int = FACETS,
     cone: str = CONES[0],
 ) -> Plan:
-    """Search an order of removal in which no intermediate structure collapses.
+    """Find an order in which blocks can be taken away so that what is left always stands.
 
-    Sub-assemblies grow from the fixed bodies upward, one block at a time and depth first; the
-    order returned is the reverse. `test` decides on each sub-assembly:
+    The search builds upward from the fixed bodies, one block at a time, and tests after each
+    whether the structure stands. Where no block can be added, it takes the last one off and tries
+    another. The order of removal is the order of building backwards.
 
-    - "reuse": forces that balance the loads, on a basis of the contact forces that follows the
-      search: grown by the block that is added, rolled back where the search backs up;
-    - "reuse-dantzig": the contact problem by Dantzig's method, started from the solution of the
-      sub-assembly it grew from, as in the paper;
-    - "lcp": the same from scratch;
-    - "lp": static equilibrium as a linear program, a fresh HiGHS model for every test;
-    - "lp-warm": the same program in one live HiGHS model, warm-started.
+    `test` says how it is decided whether a structure stands. All decide exactly, so the order is
+    the same; they differ in what is kept from one test to the next:
 
-    `node_limit` bounds the tests, `time_limit` the seconds of all, set-up too. A limit reached or
-    an interrupt (Ctrl-C) is a status of the plan, which then holds the best so far.
+    - "reuse" keeps a basis of the contact forces, with its factor, which grows and shrinks with the
+      structure;
+    - "reuse-dantzig" starts Dantzig's method from the solution of the structure before, as in the
+      paper;
+    - "lcp" is Dantzig's method from scratch;
+    - "lp" is a linear program, solved from scratch by HiGHS;
+    - "lp-warm" is the same program in one HiGHS model that is kept.
 
-    A test of the core that finds a sub-assembly to fall also finds how. With `shortcuts` that
-    motion answers later tests it still applies to, and tells which blocks wait for one another in
-    vain and how many to take back then; the order found is the same. A search of more than 20,000
-    tests, or 20 a block, takes turns with another that keeps the structure as far from falling as
-    it can. Without shortcuts every sub-assembly visited is tested, as in the paper.
+    `hold` is how many blocks may be held at a time (at most 8), as by a robot's hands or a
+    scaffold, if there is no order without. A held block does not move, whatever acts on it. The
+    hand that carries a block away is not counted. `Plan.holds` says what is held; a hand takes hold
+    as few times as the order found allows.
 
-    `threads` is how many to use, by default as many as the machine has cores; the plan is the same
-    on any number. They pay where a test is long: the complete assembly is checked beside the
-    search if it has 200 blocks or more, and "lcp" tests ahead what comes next if all stands. The
-    tests that reuse depend on the one before, and run one after the other.
+    With `clear_path` every block has to leave along a straight line, past those that remain. It may
+    slide along them. Directions are tried in this order: `directions`, if given (vectors of any
+    length); against gravity, along the axes, along and across the block's contacts; and, if these
+    give no order, at right angles to one or two faces of the block and of what is near. The first
+    one that is free is in `Plan.directions`.
+
+    `node_limit` bounds the number of tests, `time_limit` the seconds of the whole call. A limit
+    reached, or Ctrl-C, is a status of the plan, which then holds the best so far. `progress` is
+    called now and then: see `Progress`.
+
+    With `shortcuts` the search learns from each collapse. The motion in which a structure falls
+    also proves that others fall, and tells which blocks wait for one another in vain, so that these
+    are left out without a test. The order is the same. A search of more than 20,000 tests, or of
+    more than 20 for each block, takes turns with a second one, which always tries the block that
+    leaves the structure furthest from falling. Without `shortcuts` every structure is tested, as in
+    the paper.
+
+    `threads` is how many to use, by default one for each core. The plan is the same on any number.
+    They help in two places: a structure of 200 blocks or more is checked as a whole beside the
+    search, and "lcp" tests several structures ahead. Tests that reuse run one after the other.
 
     `facets` and `cone` ("inscribed" or "circumscribed") are the friction cones in space: see
     `check`.
 
-    If there is no order, up to `hold` blocks (at most 8) may be held at a time, by a robot's hand
-    or a scaffold: a held block bears whatever acts on it. Which, is in `Plan.holds`, and there are
-    as few holds as the order found allows. The block that is put up or taken away is in one more
-    hand, which may go on holding it; apart from that a new block is held before an old one is let
-    go. Held structures are decided as by "reuse".
-
-    With `clear_path` every block has to leave along a straight line without passing through those
-    that remain, sliding along them allowed: in one of `directions` (any length), against gravity,
-    along the axes, or along or across one of its contacts; where these give no order, also square
-    to one or two faces of it and of what is near. The first that is free is in `Plan.directions`.
+    Raises SceneError for bodies that overlap, and ValueError for arguments that cannot be used.
 
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found

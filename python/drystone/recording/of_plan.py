@@ -51,9 +51,10 @@ def plan_recording(
     order = plan.order if plan.found else tuple(reversed(plan.reached))
     notes = [
         f"{counted(plan.tests, 'stability test')} ({plan.test}), {counted(plan.pivots, 'pivot')}. "
-        "A chart's value at a step is that of all tests on structures of as many blocks; the whole "
-        "is checked apart. Where a structure is redundant, other forces hold it up as well."
-        + (" Those shown have the least norm." if which == CANONICAL else "")
+        "The charts show the work of the search: at each step, all tests of structures with as "
+        "many blocks as are left. The whole structure is checked before the search. Other forces "
+        "may hold the same structure up"
+        + ("; those shown have the least norm." if which == CANONICAL else ", too.")
     ]
     if any(plan.holds) and which == ANY:
         notes.append("No forces are shown of structures that stand only because blocks are held.")
