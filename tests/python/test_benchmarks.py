@@ -24,6 +24,7 @@ import cold_results  # noqa: E402
 import cold_scenes  # noqa: E402
 import measure  # noqa: E402
 import reference  # noqa: E402
+import work  # noqa: E402
 from assembly import Assembly  # noqa: E402
 from peers import PEERS  # noqa: E402
 from peers.base import Answer, Run  # noqa: E402
@@ -213,3 +214,31 @@ def test_exponents_are_of_time_in_points() -> None:
         for name, points, answer in zip("ab", (10, 40), answers, strict=True)
     ]
     assert cold_results.exponents(rows, ["drystone"])["tiny"]["drystone"] == pytest.approx(1.5)
+
+
+@pytest.mark.parametrize(
+    ("now", "kept", "worse"),
+    [
+        ("156", "156", False),
+        ("140", "156", False),
+        ("1020", "1000", False),
+        ("1021", "1000", True),
+        ("5", "3", False),
+        ("6", "3", True),
+        ("found", "found", False),
+        ("nodes", "found", True),
+        ("7", None, True),
+    ],
+)
+def test_what_counts_as_more_work(now: str, kept: str | None, worse: bool) -> None:
+    assert work.is_worse(now, kept) is worse
+
+
+def test_kept_work_is_that_of_the_cases() -> None:
+    """The paper's counts are among them, and nothing is kept of a case that is gone."""
+    kept = work.read(work.KEPT)
+    assert {case for case, _ in kept} == work.CASES.keys()
+    assert kept["plan column:80", "pivots"] == "156"
+    assert work.CASES["plan column:80"]()["pivots"] == 156
+    line = work.table({("a", "pivots"): "9"}, {("a", "pivots"): "3"}, {("a", "pivots")})
+    assert line.endswith("| a | pivots | 3 | 9 **more** |")
