@@ -27,7 +27,7 @@ answers = $(filter yes,$(shell $(1) >/dev/null 2>&1 && echo yes))
 
 .NOTPARALLEL:
 .PHONY: help demo test build lint style rust-tests viewer-tests viewer-lint python-tests types deny \
-    audit docs docs-test notices pictures wheel sdist tools test-tools clean
+    audit docs docs-test notices pictures wheel sdist dist-test tools test-tools clean
 
 help:
 	@echo "make demo    plan the 84-block random assembly, print the paper's Table I, draw the figures"
@@ -35,6 +35,7 @@ help:
 	@echo "make build   only build, into .venv"
 	@echo "make lint    only formatting, lints and types"
 	@echo "make wheel   the package that users install, into dist/; make sdist the one that needs Rust"
+	@echo "make dist-test   both, tried on every Python found, in fresh environments"
 	@echo "make docs    the site, into out/site; make docs-test also checks its links"
 	@echo "make audit   known vulnerabilities of what the Rust crates depend on (needs cargo-deny)"
 	@echo "make clean   remove what the others made"
@@ -153,6 +154,10 @@ sdist: tools $(VENV)/.release $(PAGES) $(NOTICES)
 	@rm -f dist/*.tar.gz
 	@$(BIN)/maturin sdist --quiet --out dist
 	@$(BIN)/twine check --strict dist/*.tar.gz
+
+# Installs what is in dist/ on every Python found, without a compiler; from the sdist with Rust only.
+dist-test: wheel sdist
+	@$(BIN)/python release/dist_test.py dist
 
 $(VENV)/.release: | $(VENV)/.ready
 	@$(BIN)/pip install "twine>=6" $(if $(WHEEL_LINKER),"ziglang>=0.13")

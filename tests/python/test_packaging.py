@@ -125,3 +125,52 @@ def test_a_crate_without_a_licence_file_gets_the_standard_text() -> None:
     assert "Copyright (c) A. Nobody" in notices._standard("tiny", "MIT", ["A. Nobody"])
     with pytest.raises(notices.NoticesError, match="tiny has no licence file"):
         notices._standard("tiny", "WTFPL", [])
+
+
+LOG = """# Changelog
+
+## 0.3.0
+
+Not yet.
+
+## 0.2.0 - 2026-12-01
+
+### Added
+
+- A thing.
+
+## 0.1.0 - 2026-11-22
+
+The first.
+"""
+
+
+def test_the_text_of_a_release_is_its_part_of_the_changelog() -> None:
+    changelog = _script("changelog")
+    assert changelog.section(LOG, "v0.2.0") == "### Added\n\n- A thing."
+    assert changelog.section(LOG, "v0.1.0") == "The first."
+    for tag, fault in {
+        "v0.3.0": "has no date",
+        "v0.4.0": "has no section",
+        "0.2.0": "is v and three numbers",
+    }.items():
+        with pytest.raises(changelog.ChangelogError, match=fault):
+            changelog.section(LOG, tag)
+
+
+def test_a_tag_is_the_version_of_the_packages() -> None:
+    changelog = _script("changelog")
+    changelog.check('[workspace.package]\nversion = "0.2.0"\n', "v0.2.0")
+    with pytest.raises(changelog.ChangelogError, match=r"is 0\.2\.0-dev$"):
+        changelog.check('[workspace.package]\nversion = "0.2.0-dev"\n', "v0.2.0")
+
+
+def test_actions_are_pinned_by_commit() -> None:
+    """One hash an action, with its version beside it, in all workflows."""
+    used: dict[str, set[str]] = {}
+    for path in (ROOT / ".github/workflows").glob("*.yml"):
+        for action, rest in re.findall(r"uses: ([\w./-]+)@(.*)", path.read_text()):
+            assert re.fullmatch(r"[0-9a-f]{40} # v\d+\.\d+\.\d+", rest), (path.name, action)
+            used.setdefault(action, set()).add(rest)
+    assert len(used) > 8
+    assert all(len(pins) == 1 for pins in used.values()), used
