@@ -53,17 +53,18 @@ class Solution:
     velocities: NDArray[np.float64]
     """(n,), at the end of the step, in the units of `free`."""
     error: float
-    """How far it is from Coulomb's law, m/s: the largest over the contacts of the length of
-    p - P(p - (u + mu |u_t| n)), P the projection on the contact's cone, with impulses counted as
-    the speeds that they give at their own contact. Zero if and only if the law holds."""
+    """How far the worst contact is from Coulomb's law, m/s. Zero if and only if the law holds.
+
+    It is the length of p - P(p - (u + mu |u_t| n)), where P projects on the contact's friction
+    cone, and an impulse p counts as the speed that it gives at its own contact."""
     tolerance: float
     """What `error` was compared with, m/s."""
     status: str
     """"solved" (`error` is at most `tolerance`), or "limit": this is the best that was found."""
     islands: int
-    """Groups of unknowns that contacts connect; each is solved on its own."""
+    """How many independent groups of bodies the contacts connect; each is solved by itself."""
     sweeps: int
-    """Sweeps over the contacts of an island, all islands together. Work counts are exact."""
+    """Sweeps over the contacts, of all islands together. The same on every machine."""
     newton_steps: int
     """Newton steps, all islands together."""
 

@@ -94,8 +94,9 @@ class Solution:
     major_cycles: int
     minor_cycles: int
     residual: float
-    """The largest |min(z_i, w_i)| with M scaled to a unit diagonal, over the largest entry of the
-    scaled z and q."""
+    """How far z and w are from complementary, in the problem's own scale: the largest
+    `|min(z_i, w_i)|`, with M scaled to a unit diagonal, divided by the largest entry of the scaled
+    z and q."""
     ray: NDArray[np.float64] | None
     """(n,). With "no_solution" a proof of it: ray >= 0, M' ray <= 0 and q' ray < 0 (of a `Solver`:
     on the rows present, and zero elsewhere). M' ray is rounding of M's last digits, at most 1e-12

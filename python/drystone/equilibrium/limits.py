@@ -42,13 +42,13 @@ class LimitEnd:
     forces: ContactForces | None
     """Contact forces that hold the structure there; None without a limit."""
     imbalance: float
-    """The most that these forces leave of a block's load, as a share of that load or of the largest
-    force on it."""
+    """What these forces leave unbalanced on the worst block, as a share of its load or of the
+    largest force on it: rounding."""
     closing: float
     """How fast a contact closes in the mechanism, as a share of its fastest point: rounding."""
     bound: float
-    """The factor at which the loads do no work in the mechanism: no factor beyond it can stand. The
-    same number as `factor`, by another route."""
+    """The factor at which the loads do no work in the mechanism, so that no factor beyond it can
+    stand. The same number as `factor`, computed in another way: it is the proof."""
 
     @classmethod
     def _of(cls, core: _core.LimitEnd) -> LimitEnd:
@@ -72,15 +72,15 @@ class Limit:
     """The answer of `limit`."""
 
     status: str
-    """"solved"; "no_solution" if the structure stands under no factor: `factor` is then not a
-    number, and `mechanism` how it falls whatever the push; or why the solver stopped without an
-    answer."""
+    """"solved"; "no_solution" if the structure falls under every factor (`factor` is then not a
+    number, and `mechanism` says how it falls whatever the push); or why the solver stopped without
+    an answer."""
     lower: LimitEnd
     """The least factor with which the structure can stand."""
     upper: LimitEnd
     """The greatest."""
     pivots: int
-    """Pivots of the walk from the basis that stands."""
+    """Pivots, from forces that hold the structure to those at the limit."""
     iterations: int
     """Matrices factored by the interior-point method."""
     seconds: float
@@ -168,19 +168,23 @@ def limit(
     facets: int = FACETS,
     cone: str = ROUND,
 ) -> Limit:
-    """Find the load factors t with which a structure can stand under its loads and t times a push.
+    """How much of a push does a structure bear, and how does it collapse beyond?
+
+    Finds the load factors t with which it can stand under its own loads and t times the push.
 
     `push` gives forces on bodies (see `Push`), `gravity` an acceleration that is added to gravity,
     m/s^2: at least one of the two. `blocks` names the movable bodies of a sub-assembly, as in
     `check`; `cone` is "round", "inscribed" or "circumscribed" there, and `facets` the edges of a
     pyramid.
 
-    The factors form an interval, infinite where nothing limits them. "Can stand": contact forces
-    within the friction cones balance all loads (the static, or lower bound, theorem of limit
-    analysis), and beyond it a mechanism proves that there are none. This is the answer of the
-    associated flow rule, in which what slides also opens. Friction does not open: with it the
-    factor is an upper bound of the load at which a structure may already begin to move, exact where
-    nothing slides in the mechanism.
+    The factors form an interval, `Limit.bounds`; an end is infinite where nothing limits it. "Can
+    stand" means that some contact forces within the friction cones balance all loads (the static,
+    or lower bound, theorem of limit analysis). Beyond the end a mechanism proves that there are
+    none.
+
+    Where blocks slide in the mechanism, they also open a little (the associated flow rule), which
+    real friction does not do. The factor is then an upper bound: the structure may begin to move
+    earlier. Where nothing slides, but blocks turn about corners, it is exact.
 
     Raises SceneError for an unknown name, a fixed body, wrong numbers or bodies that overlap.
 

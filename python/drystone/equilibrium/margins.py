@@ -49,25 +49,26 @@ class Margin:
     status: str
     """"solved", or why the solver stopped without an answer."""
     acceleration: float
-    """The least horizontal acceleration over gravity that brings it down, over all directions;
-    infinite if none does, 0 if it falls anyway. In space the set of all that it bears is known to
-    `tolerance`: it falls with this one, and one smaller by that much it bears."""
+    """The least horizontal acceleration that brings it down, over all directions, in parts of
+    gravity (0.3 is 0.3 g). Infinite if none does, 0 if it falls anyway. In space it is known to
+    `tolerance`: with this acceleration it falls, with one smaller by `tolerance` it stands."""
     direction: tuple[float, ...]
-    """The direction of the force that this is on every block, a unit vector (the ground is
-    accelerated the other way); zero if it falls anyway."""
+    """Unit vector: where this acceleration pushes every block (the ground is accelerated the other
+    way). Zero if it falls anyway."""
     tilt: float | None
-    """The least angle, rad, by which the ground is tilted when it falls. None in space with loads
-    that stay."""
+    """The least angle, rad, by which the ground can be tilted until it falls. None in space where
+    the structure has loads that stay."""
     end: LimitEnd
     """Forces and mechanism there; see `LimitEnd`."""
     axes: tuple[tuple[float, ...], tuple[float, ...]]
     """The horizontal unit vectors along which `boundary` is given; the same twice in the plane."""
     boundary: NDArray[np.float64]
-    """(n, 2): the accelerations over gravity that bring it down, around the origin; between these
-    points the boundary is at most `tolerance` outside of the straight line. Two points in the
-    plane. Nothing farther than 1e6 g is looked for."""
+    """(n, 2): points around the origin, in parts of gravity, along `axes`. It stands with an
+    acceleration inside their polygon and falls with one outside; the true boundary is at most
+    `tolerance` outside of the polygon. Two points in the plane. Nothing beyond 1e6 g is looked
+    for."""
     questions: int
-    """Load factors that were found for it."""
+    """How many load factors were computed for it."""
     names: tuple[str, ...]
     """The movable bodies that are there."""
     scene: Scene
@@ -101,13 +102,14 @@ class Margin:
 
     @property
     def forces(self) -> ContactForces | None:
-        """The contact forces that hold it to the last; None where it falls anyway."""
+        """The contact forces at the limit; None if it falls anyway."""
         return self.end.forces if self.acceleration > 0.0 else None
 
     @property
     def friction(self) -> float:
-        """The least multiple of every coefficient of friction with which it stands, to 1e-9: below
-        1 for what stands; infinite if no friction helps. Computed when first read."""
+        """The factor by which all coefficients of friction can be multiplied so that it just
+        stands, to 1e-9. Below 1 if it stands: 0.7 means that with 70 % of the friction it still
+        would. Infinite if no friction helps. Computed when first read."""
         if self._friction is None:
             names, cones, round_cones = self._asked
             self._friction = _core.least_friction(self.scene._core, names, cones, round_cones)
@@ -157,14 +159,17 @@ def margin(
     facets: int = FACETS,
     cone: str = ROUND,
 ) -> Margin:
-    """Find how far a structure is from falling.
+    """How far is a structure from falling?
 
-    That is the least horizontal acceleration that brings it down, in whatever direction; the tilt;
-    and the least friction with which it stands. `blocks`, `facets` and `cone` are as in `limit`,
-    and so is what "can stand" means. `loads` "stay" keeps the direction and size of permanent
-    loads; "turn" takes them for weights, which turn with gravity and are accelerated as masses are.
-    `tolerance` is how far the boundary may be off in space, in g: a structure in the plane has two
-    directions only, and exact answers.
+    Finds the least horizontal acceleration that brings it down, over all directions; how far the
+    ground can be tilted; and how much friction it needs. `blocks`, `facets` and `cone` are as in
+    `limit`, and "can stand" means the same.
+
+    `loads` says what permanent loads do. With "stay" they keep their direction and size, like the
+    pull of a rope. With "turn" they count as weights: they turn with gravity and are accelerated.
+
+    `tolerance` is how far the boundary in space may be off, in parts of gravity. In the plane there
+    are only two directions, and the answers are exact.
 
     Raises SceneError without gravity, for loads that are to turn and are no weights, and for what
     `limit` does.

@@ -18,11 +18,11 @@ if TYPE_CHECKING:
 
 
 class Structure:
-    """The blocks of a scene that are there at the moment; fixed bodies always are.
+    """A scene of which some blocks are there and others not: does it stand now?
 
-    Blocks come and go in any order, and every question is answered from the one before: the
-    contacts of the complete scene, the forces and their factor are kept. A verdict costs what the
-    change reaches, which on a tall stack is a block or two, not the way to the ground.
+    Blocks are added and removed in any order. Between two questions the contacts of the complete
+    scene, the forces and their factored matrix are kept, so an answer costs only what the change
+    reaches. On a tall stack that is a block or two, not the way to the ground.
 
     >>> import drystone as ds
     >>> structure = ds.Structure(ds.scenes.pyramid(3), blocks=["1", "2", "3"])  # the lowest row
@@ -36,9 +36,9 @@ class Structure:
     Raises SceneError for a scene in which blocks overlap, and for a name that no movable body has.
     `facets` and `cone` are as in `plan`.
 
-    `copy.copy`, `copy.deepcopy` and `pickle` make structures of their own, with the forces and the
-    factor as they are, so that they answer with the same numbers. One thread at a time may use a
-    structure: BusyError otherwise, and nothing has changed then.
+    `copy.copy`, `copy.deepcopy` and `pickle` make independent structures, with the forces and the
+    factor as they are, so they answer with the same numbers. One thread at a time may use a
+    structure; a second one gets a BusyError, and nothing has changed.
     """
 
     __slots__ = ("_cones", "_core", "_index", "_names", "_scene")
@@ -78,8 +78,8 @@ class Structure:
         self._core.change(self._indices(blocks), [])
 
     def stands(self) -> bool | None:
-        """Whether an equilibrium within the friction cones exists; None if that is borderline (see
-        `Verdict.status`).
+        """Whether some forces within the friction cones balance every block that is there; None if
+        that is borderline (see `Verdict.status`).
 
         Raises DrystoneError if the solver ends without an answer.
         """
@@ -93,8 +93,8 @@ class Structure:
     def limit(self, push: Push | None = None, gravity: Sequence[float] | None = None) -> Limit:
         """How much of a push the structure bears as it is now; `push` and `gravity` as in `limit`.
 
-        From the forces that hold it where few pivots do, else by the interior-point method. In
-        space with pyramids.
+        It begins with the forces that hold the structure. If that takes more than a few pivots, the
+        interior-point method is used. In space the friction cones are the structure's pyramids.
 
         >>> import drystone as ds
         >>> scene = ds.scenes.pyramid(3, friction=0.5)

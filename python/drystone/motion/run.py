@@ -24,15 +24,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Run:
-    """The record of `simulate`: k steps of n bodies, fixed ones included.
+    """The answer of `simulate`: k steps of n bodies, fixed ones included.
 
-    Work and errors have one entry a step. `poses` and `velocities` have one more: the beginning.
+    Most arrays have one entry for each step. `poses` and `velocities` have one more, the beginning.
     """
 
     status: str
-    """"finished", "interrupted", or why a step could not be made: "unsolved", "too_fast",
-    "out_of_bounds". The steps before it are here. Where some of them are not exact it goes on:
-    "finished, 3 steps not exact"."""
+    """How the run ended: "finished"; "interrupted" (Ctrl-C); or why the next step could not be
+    made, "unsolved", "too_fast" or "out_of_bounds". The steps before are here. If some of them are
+    not exact (see `exact`) it says how many, as in "finished, 3 steps not exact"."""
     reason: str | None
     """For a step that could not be made: what happened, and what to do."""
     names: tuple[str, ...]
@@ -50,24 +50,25 @@ class Run:
     """(k + 1, n, 3): m/s, m/s, rad/s. In space (k + 1, n, 6): m/s along x, y and z, rad/s about
     them."""
     motionless: NDArray[np.bool_]
-    """(k, n): which bodies kept their place in the step, to the bit; fixed ones do."""
+    """(k, n): which bodies did not move in the step, not by a bit. Fixed ones never do."""
     pivots: NDArray[np.int64]
     """(k,): major plus minor cycles of all solves of the step."""
     major_cycles: NDArray[np.int64]
     minor_cycles: NDArray[np.int64]
     solves: NDArray[np.int64]
-    """(k,): the first one, and those that make Coulomb's law exact."""
+    """(k,): how many problems were solved: a first one, and more until Coulomb's law holds."""
     rows: NDArray[np.int64]
     """(k,): rows of the step's complementarity problem."""
     rows_reused: NDArray[np.int64]
-    """(k,): active rows whose part of the factor came from the step before."""
+    """(k,): active rows whose part of the factored matrix was taken over from the step before."""
     projections: NDArray[np.int64]
-    """(k,): times that overlaps were taken back; their pivots are in `pivots`."""
+    """(k,): how many times overlaps were removed; the pivots for it are counted in `pivots`."""
     collisions: NDArray[np.int64]
-    """(k,): contacts at which bodies collided; 0 on the velocity level, which does not ask."""
+    """(k,): contacts at which bodies collided. Always 0 with the "velocity" formulation, in which a
+    collision is a contact like others."""
     inconsistent: NDArray[np.int64]
-    """(k, 2): the two bodies (indices in `names`) at a contact for which no forces exist or were
-    found, so that impulses took their place; -1 and -1 in all other steps."""
+    """(k, 2): where no forces exist or were found, so that the step was made with impulses, the two
+    bodies (indices in `names`) at the contact to blame. -1 and -1 in all other steps."""
     solve_seconds: NDArray[np.float64]
     """(k,): wall time of the solves, the factor included."""
     step_seconds: NDArray[np.float64]
@@ -75,22 +76,23 @@ class Run:
     residual: NDArray[np.float64]
     """(k,): of the last solve, in its problem's scale."""
     friction_error: NDArray[np.float64]
-    """(k,): m/s by which a contact departs from Coulomb's law."""
+    """(k,): how far the worst contact is from Coulomb's law, m/s."""
     exact: NDArray[np.bool_]
-    """(k,): whether that is within what is asked for. In the plane 1e-9 m/s, relative above 1 m/s;
-    in space 1e-8 of the fastest contact's speed and of what gravity gives in a step. Where it is
-    not, the step was made with the best that was found."""
+    """(k,): whether `friction_error` is small enough. In the plane that is 1e-9 m/s, or 1e-9 of the
+    speed above 1 m/s; in space 1e-8 of the speed of the fastest contact, or of the speed that
+    gravity gives in a step if that is more. Otherwise the step was made with the best solution that
+    was found."""
     penetration: NDArray[np.float64]
     """(k,): deepest overlap at the end of the step, metres."""
     force_starts: NDArray[np.int64]
-    """With `forces=True` (k + 1,): step j's forces are the rows from entry j to entry j + 1 of the
-    three arrays below. Else one zero."""
+    """With `forces=True` (k + 1,): the forces of step j are the rows `force_starts[j]` to
+    `force_starts[j + 1]` of the three arrays below. Otherwise one zero."""
     force_bodies: NDArray[np.int64]
     """(m, 2): indices of the two bodies in `names`."""
     force_points: NDArray[np.float64]
     """(m, 2), in space (m, 3): where, metres."""
     forces: NDArray[np.float64]
-    """As many: mean force of the first body on the second in the step, N."""
+    """As many rows: the mean force of the first body on the second in the step, N."""
     scene: Scene = field(repr=False)
     """The scene at the beginning."""
 
@@ -131,12 +133,13 @@ class Run:
 
     @property
     def not_exact(self) -> int:
-        """Steps further from Coulomb's law than is asked for: see `exact`, `friction_error`."""
+        """How many steps are not `exact`."""
         return int((~self.exact).sum())
 
     @property
     def by_impulses(self) -> int:
-        """Steps on the acceleration level that had no forces and went by impulses."""
+        """How many steps of the "acceleration" formulation were made with impulses, since no forces
+        exist or were found."""
         return int((self.inconsistent[:, 0] >= 0).sum())
 
     @property

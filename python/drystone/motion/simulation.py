@@ -25,37 +25,38 @@ def simulate(
     forces: bool = False,
     progress: Progress | None = None,
 ) -> Run:
-    """Let the bodies of a scene move, from rest or with the `velocities` given by name.
+    """How do the bodies of a scene move? Makes `steps` steps of `dt` seconds, and records them.
 
-    Every step of `dt` seconds is one complementarity problem of impulses and velocities over the
-    contacts that may close in it: resting, sliding with Coulomb's friction, rolling over corners
-    and impacts alike. What stands still keeps its place to the bit. `reuse` says what a step takes
-    over from the one before; the motion is the same:
+    In each step one problem is solved for all contacts together, whether they rest, slide by
+    Coulomb's law, roll over a corner or collide. What stands still keeps its place, to the bit.
 
-    - "full": everything that did not move: impulses, active set, factor rows, contact geometry;
-    - "motionless": the solution of the motionless part, solved anew when that part changes, as in
-      the paper;
+    `velocities` are those at the beginning, by name: (m/s, m/s, rad/s); in space six numbers, m/s
+    along the axes and rad/s about them. Bodies that are not named begin at rest. `restitution`,
+    from 0 to 1, is the share of the speed with which colliding bodies part. With `forces` the run
+    holds the contact forces of every step.
+
+    `reuse` says what a step takes over from the step before. The motion is the same:
+
+    - "full": everything about bodies that did not move: impulses, active set, rows of the factor,
+      contacts;
+    - "motionless": the solution of the part that does not move, solved again when that part
+      changes, as in the paper;
     - "none": nothing.
 
-    `formulation` says what the unknowns of a step are: on the "velocity" level impulses and
-    velocities, in one problem that always has a solution; on the "acceleration" level forces and
-    accelerations, after impulses where bodies collide, as in the paper. Where no forces exist (as
-    at Painlevé's rod) impulses take their place, and `Run.inconsistent` names the bodies. In space
-    there is the "velocity" level only.
+    `formulation` says what is solved for:
 
-    `restitution` is the share of the normal velocity with which colliding bodies part (0 to 1).
-    `velocities` are (m/s, m/s, rad/s), in space six numbers: m/s along the axes, rad/s about them.
-    In space, Coulomb's cones are round from the step on in which a quarter of the blocks move, with
-    reuse="full". `facets` and `cone` ("inscribed" or "circumscribed") are the pyramids for what
-    stands, for few that move amid many, for the other modes, and for steps in which nothing near
-    Coulomb's law was found on round cones: see `check`. With `forces` the run holds the contact
-    forces of every step.
+    - "velocity": impulses and the velocities at the end of the step. There is always a solution;
+    - "acceleration": forces and accelerations, as in the paper; collisions are solved before that,
+      with impulses. In the plane only. Sometimes no forces exist (Painlevé's rod): the step is then
+      made with impulses, and `Run.inconsistent` names the bodies.
 
-    A step that cannot be made, and Ctrl-C, end the run; its status says so, and the steps before
-    are kept.
+    In space friction cones are round as soon as a quarter of the blocks move, with reuse="full".
+    Otherwise, and in steps for which no answer was found on round cones, they are pyramids:
+    `facets` and `cone` ("inscribed" or "circumscribed") are as in `check`.
 
-    In motion a coefficient of friction above 100 counts as 100: no load that leans by less than
-    89.4 degrees from a face's normal slides on it.
+    If a step cannot be made, or after Ctrl-C, the run ends; its status says why, and the steps
+    before are kept. A coefficient of friction above 100 counts as 100: nothing slides unless it is
+    pushed within 0.6 degrees of the face.
 
     Raises SimulationError for a `dt` outside 1e-12 to 1e12 s, a `restitution` outside 0 to 1 or
     velocities that are not finite or beyond 1e12, and SceneError for bodies that overlap, or facets

@@ -50,7 +50,7 @@ class StepRecord:
 
 
 class World:
-    """A scene in motion.
+    """A scene in motion, one step at a time; between steps bodies may be pushed, added and removed.
 
     >>> import drystone as ds
     >>> world = ds.World(ds.scenes.column(4, friction=0.5))
@@ -62,8 +62,9 @@ class World:
     >>> bool(world.step().motionless[3])
     False
 
-    `copy.copy`, `copy.deepcopy` and `pickle` make worlds of their own that go on bit for bit. One
-    thread at a time may use a world: BusyError otherwise, and nothing has changed then.
+    `copy.copy`, `copy.deepcopy` and `pickle` make independent worlds that go on in the same way,
+    bit for bit. One thread at a time may use a world; a second one gets a BusyError, and nothing
+    has changed.
     """
 
     __slots__ = ("_core",)
@@ -145,10 +146,10 @@ class World:
 
     @property
     def forces(self) -> tuple[ContactForce, ...]:
-        """Mean force of the last step at every contact point that bears.
+        """The mean force of the last step at every contact point that bears.
 
-        If nothing moved in it, of all forces that hold the bodies those of least norm, as `check`
-        gives them; computed when asked for. The world itself goes on with its own."""
+        If nothing moved in that step these are the forces of least norm, as `check` gives them,
+        computed when read. They do not change how the world goes on."""
         return tuple(ContactForce._of(force) for force in self._core.forces())
 
     @property
@@ -277,9 +278,9 @@ class World:
         self._core.remove(name)
 
     def snapshot(self) -> bytes:
-        """The whole state. What goes on from it goes on bit for bit.
+        """The whole state as bytes. A world restored from it goes on as this one does, bit for bit.
 
-        The bytes end with a checksum, and are for the version of drystone that wrote them.
+        The bytes end with a checksum. Only the version of drystone that wrote them reads them.
         """
         return self._core.snapshot()
 
@@ -294,7 +295,7 @@ class World:
         return world
 
     def state_hash(self) -> int:
-        """A number for all that decides how the world moves on, the same on every machine.
+        """One number made of all that decides how the world moves on; the same on every machine.
 
         That is the bodies (names, shapes, masses, friction) and where they are, velocities, pending
         pushes, gravity, the contact tolerance, the arguments of `World` and the count of steps.
