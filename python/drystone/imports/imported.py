@@ -64,7 +64,7 @@ class Imported:
     bodies: list[ImportedBody]
     left_out: list[LeftOut]
     messages: list[str]
-    """What was repaired, or taken otherwise than written."""
+    """What was repaired, or taken in another way than it was written."""
 
     def to_dict(self) -> dict[str, Any]:
         """What `drystone import --json` prints."""
@@ -106,32 +106,36 @@ def load(
     joints: str = "error",
     surface: bool | None = None,
 ) -> Imported:
-    """A COMPAS assembly, a folder of part meshes, a manifest, a mesh file, MJCF or URDF as a scene.
+    """A scene from a file of another tool.
 
-    `path` may also be a COMPAS object itself: an assembly, a model or a mesh.
+    `path` is a COMPAS assembly, a folder of part meshes, a manifest, a mesh file, MJCF or URDF; or
+    a COMPAS object itself: an assembly, a model or a mesh. What cannot be taken is left out and
+    reported, in `Imported.left_out` and `Imported.messages`.
 
-    `scale` makes metres of the file's lengths, `up` is the axis ("y" or "z") that points up in
-    it. `friction` is for bodies without their own, `density` (kg/m^3) for all bodies, instead of
-    what the file says (1000 if it says nothing); `gravity` (m/s^2, z up) likewise. Either of the
-    first two may be a dict by names of bodies, for these alone. Bodies named in `fixed` never move;
-    `ground` lays a fixed box under all. `tolerance` is the scene's `contact_tolerance`, in metres:
-    how far apart bodies of an inexact file may be and still touch, by default 1e-6 of the diagonal
-    of all, or three last places of the numbers where faces of meshes show that these are rounded;
-    "auto" takes more if bodies overlap by more, as little as lets none overlap, and says so.
-    `simplify` (metres) lets the surface of mesh files move by so much, so that scans become few
-    pieces: see `Scene.add_mesh`.
+    What the file does not say, or what you want otherwise:
 
-    A mesh file of several objects (`o` of OBJ, nodes of glTF) becomes a body for each, called like
-    it; so do the groups (`g`) of an OBJ file without objects. `split="groups"` takes each group as
-    a body, `split="none"` all as one.
+    - `scale` makes metres of the file's lengths; `up` is the axis ("y" or "z") that points up in
+      it.
+    - `friction` is the coefficient of bodies without their own. `density` (kg/m^3) is that of all
+      bodies, whatever the file says (1000 if neither says anything). Either may be a dict by names
+      of bodies, for these alone. `gravity` is in m/s^2, with z up.
+    - Bodies named in `fixed` never move. `ground=True` lays a fixed box under all.
+    - `tolerance` (metres) is the scene's `contact_tolerance`: how far apart bodies may be and still
+      touch, and how deep they may overlap. By default 1e-6 of the diagonal of all bodies, or three
+      last decimal places where the faces of meshes show that their numbers are rounded. "auto"
+      takes more if bodies overlap by more: the least that will do, which is reported.
 
-    `surface` says which meshes are bodies within their surface instead of convex pieces, as of
-    `Scene.add_mesh`: by default those that are curved or fall into many.
+    How meshes are taken:
 
-    `hull` takes the convex hulls of meshes (of MJCF they are taken anyway, as MuJoCo does).
-    `joints="fixed"` welds bodies of MJCF and URDF that hang on joints which turn or slide; by
-    default these are an error. One of their bodies that cannot be taken is left out, and said; the
-    masses, centres of mass and inertias that they give are taken.
+    - A file of several objects (`o` of OBJ, nodes of glTF) becomes a body for each, called like the
+      object; so do the groups (`g`) of an OBJ file without objects. `split="groups"` makes a body
+      of each group, `split="none"` one of all.
+    - `surface`, `max_pieces`, `simplify` and `hull` are as in `Scene.add_mesh`. Meshes of MJCF are
+      always taken as their hulls, as MuJoCo does.
+
+    How models of robots are taken: masses, centres of mass and inertias are those of the file.
+    A body that hangs on a joint which turns or slides is an error; `joints="fixed"` welds it where
+    it is. A body that cannot be taken is left out.
 
     Raises FormatError or MeshError, naming the file and the fix, SceneError for bodies that do not
     make a scene (two of them overlap), and OSError for a file that cannot be read.

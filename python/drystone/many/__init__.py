@@ -44,29 +44,31 @@ def plan_many(
     retries: int = 3,
     progress: Progress | None = None,
 ) -> ManyPlans:
-    """Plan every one of `scenes`, each as `plan` would.
+    """Plan many scenes, each as `plan` would, on all cores or on a cluster.
 
     `scenes` is a folder (its files `*.json`, by name), or any iterable of scenes and of paths of
     scene files, or a mapping from names to these. It may be a generator: only as many scenes as
     keep the workers busy are held at a time.
 
-    `engine` says where:
+    `engine` says where the work is done:
 
-    - "threads": on threads of this process, `workers` of them (by default one a core);
-    - "ray": as tasks of Ray, `pip install "drystone[ray]"`. With `address` on the cluster there
-      ("auto": the one running on this machine). Without, on the cluster that this process is
-      connected to, that RAY_ADDRESS names or that runs on this machine; if there is none, Ray is
-      started on this machine for the call, with `workers` CPUs (by default one a core). A task
-      takes one CPU, and is repeated elsewhere, at most `retries` times, if its machine dies.
+    - "threads": on threads of this process, `workers` of them (by default one for each core);
+    - "ray": as tasks of Ray, `pip install "drystone[ray]"`. `address` names the cluster ("auto":
+      the one that runs on this machine). Without it, it is the cluster that this process is
+      connected to, the one that RAY_ADDRESS names, or the one that runs on this machine; if there
+      is none, Ray is started on this machine for the call, with `workers` CPUs (by default one for
+      each core). A task takes one CPU. If its machine dies it is repeated elsewhere, at most
+      `retries` times.
 
-    With `output`, a folder, every answer is written as it comes: one file a scene, named by the
-    scene's name and content, whole or not at all, and a line in `index.jsonl`. A later call with
-    the same folder repeats nothing that is there for the same content and the same settings
-    (`test`, `node_limit`, `time_limit`, `shortcuts`, `hold`, `clear_path`, `directions` and the
-    version of drystone). Without `output` answers are kept in memory only.
+    With `output`, a folder, every answer is written as soon as it is there: one file for each
+    scene, named by the scene's name and content, and a line in `index.jsonl`. A file is written
+    whole or not at all. A later call with the same folder plans only what is not there for the same
+    content and the same settings (`test`, `node_limit`, `time_limit`, `shortcuts`, `hold`,
+    `clear_path`, `directions` and the version of drystone). Without `output` answers are kept in
+    memory only.
 
-    A scene that cannot be read is recorded as such and stops nothing. Ctrl-C ends the call early:
-    what is finished is in the answer, whose `interrupted` is then true.
+    A scene that cannot be read is recorded as such, and the others go on. Ctrl-C ends the call
+    early: the answer then holds what is finished, and its `interrupted` is True.
 
     Orders, tests and pivots do not depend on engine or workers, unless `time_limit` cuts them.
 

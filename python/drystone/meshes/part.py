@@ -95,16 +95,18 @@ def read_part(
 ) -> Part:
     """The convex pieces of a mesh file (OBJ, STL, PLY, OFF, glTF, GLB) or of a trimesh.Trimesh.
 
-    A mesh that is curved, or falls into many pieces, is a body within its surface instead, which
-    the part's messages say. `surface=True` takes any mesh so; with `surface=False`, or with
-    `max_pieces`, there are convex pieces or an error.
+    A mesh that is curved, or would fall into many pieces, is kept as a surface instead, and the
+    part's messages say so. `surface=True` keeps any mesh as a surface. With `surface=False`, or
+    with `max_pieces`, there are convex pieces or an error.
 
-    `scale` makes metres of the file's units. `hull` takes the convex hull instead, as simulators do
-    with meshes. `simplify` (metres) allows the surface to move by so much, so that scans of many
-    triangles become few pieces; by how much it moved and its volume changed is the part's
-    `simplification`, and its `volume` is still the mesh's. `tolerance` (metres) is how far vertices
-    may be from where they should be, so that faces that are plane within it become plane; by
-    default, and at least, twice the last place of the numbers. 0 takes them as exact.
+    - `scale` makes metres of the file's lengths.
+    - `hull=True` takes the convex hull instead, as most simulators do.
+    - `simplify` (metres) is for scans of many triangles: the surface may move by that much, so that
+      few pieces remain. The part's `simplification` says how far it moved and how its volume
+      changed; `volume` is still that of the mesh.
+    - `tolerance` (metres) is how far vertices may be from where they should be: faces that are
+      plane within it are made plane. By default, and at least, twice the last decimal place of the
+      numbers; 0 takes them as exact.
 
     Raises MeshError, naming the mesh and the fix, if it encloses no solid or is to have convex
     pieces and falls into more than `max_pieces` (256), and OSError if the file cannot be opened.

@@ -222,9 +222,9 @@ class Scene:
         """Add one rigid body made of convex pieces and return its name.
 
         Each piece is the convex hull of its points, as `add_polyhedron` takes them. Pieces may
-        touch. They may overlap if the body is fixed or its `mass` is given; without one they are
-        refused, for their mass would count twice. A centre of mass and an inertia that are not
-        given with the mass count every piece in full.
+        touch. They may overlap only if the body is fixed or its `mass` is given: otherwise the
+        overlap would be weighed twice. Where pieces overlap, a centre of mass and an inertia that
+        are not given are computed as if each piece were whole.
         """
         return self._core.add_solid(
             [[_triple(vertex, "a vertex") for vertex in piece] for piece in pieces],
@@ -257,8 +257,8 @@ class Scene:
         `vertices` (k, 3) are in metres, in a frame that stands at `position`, turned by
         `orientation`; `triangles` (n, 3) are numbers of vertices, counter-clockwise seen from
         outside. The body may be concave and curved and have hollows. Its contacts are found on the
-        surface itself (docs/theory/contacts-of-surfaces.md); it can be checked and planned with,
-        and not be simulated. `add_mesh` mends what is wrong with a mesh first.
+        surface itself (docs/theory/contacts-of-surfaces.md). `check` and `plan` take such bodies,
+        `simulate` does not. `add_mesh` does the same, and mends small faults of a mesh first.
 
         The other arguments and the errors are those of `add_box`; SceneError too for a surface
         that is not closed.
@@ -296,20 +296,23 @@ class Scene:
     ) -> str:
         """Add a mesh as one rigid body and return its name.
 
-        The body is made of exact convex pieces if there are few. A mesh that is curved or falls
-        into many is a body within its surface, as of `add_surface`; a MeshWarning says so. With
-        `surface=True` any mesh is one, with `surface=False`, or with `max_pieces`, none: there are
-        convex pieces or an error.
-
-        `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface in
+        `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface, in
         a frame that stands at `position`, turned by `orientation`. `scale` makes metres of its
-        lengths. A file of several objects is one body too: `imports.load` makes one of each.
-        `hull` takes its convex hull instead. `simplify` (metres) makes few pieces of a
-        scan of many triangles by moving its surface by no more than that; the body weighs what the
-        mesh does, its density being changed by as much as its volume was. `tolerance` (metres) is
-        how far its vertices may be off: faces that are plane within it become plane. By default
-        that is what its numbers show, twice their last place; 0 takes them as exact. What is
-        mended, made plane or simplified is said in a MeshWarning.
+        lengths. A file of several objects becomes one body, too; `imports.load` makes one of each.
+
+        A mesh of few faces is cut into convex pieces, exactly. A curved one, or one that would fall
+        into many pieces, is kept as a surface, as by `add_surface`, and a MeshWarning says so.
+        `surface=True` keeps any mesh as a surface. With `surface=False`, or with `max_pieces`,
+        there are convex pieces or an error.
+
+        - `hull=True` takes the convex hull instead.
+        - `simplify` (metres) is for scans of many triangles: the surface may move by that much, so
+          that few pieces remain. The body weighs what the mesh does; its density is adapted.
+        - `tolerance` (metres) is how far vertices may be from where they should be: faces that are
+          plane within it are made plane. By default it is twice the last decimal place of the
+          numbers; 0 takes them as exact.
+
+        What is mended, made plane or simplified is said in a MeshWarning.
 
         Raises MeshError, naming the mesh and the fix, if it encloses no solid, or is to have convex
         pieces and falls into more than `max_pieces` (256), and the errors of `add_solid`.

@@ -1,7 +1,7 @@
-"""Plans, runs and scenes to look at: one self-contained page each, which opens from disk.
+"""Plans, runs and scenes as pages of HTML, which open in a browser from disk, without a network.
 
-`plan_page`, `run_page` and `scene_page` make pages of what they are given; `Page.save` writes one,
-and a notebook shows it. The front end is in `viewer/` of the source tree, the contract between the
+`plan_page`, `run_page` and `scene_page` make a page; `Page.save` writes it into a file, and a
+notebook shows it. The front end is in `viewer/` of the source tree, the contract between the
 two sides in `drystone/recording/contract.py` and `contract.ts` there.
 """
 
@@ -28,7 +28,7 @@ __all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page"
 
 
 def plan_page(plan: Plan, progress: Progress | None = None, which: str = CANONICAL) -> Page:
-    """The order of removal, step by step; see `plan_recording`.
+    """The page of a plan: the order of removal, step by step, with contact forces.
 
     >>> import drystone as ds
     >>> plan_page(ds.plan(ds.scenes.column(4)))
@@ -38,7 +38,7 @@ def plan_page(plan: Plan, progress: Progress | None = None, which: str = CANONIC
 
 
 def scene_page(scene: Scene) -> Page:
-    """The bodies of a scene, those that overlap in red; see `scene_recording`.
+    """The page of a scene: its bodies, those that overlap in red.
 
     >>> import drystone as ds
     >>> scene_page(ds.scenes.column(4))
@@ -61,7 +61,22 @@ def run_page(
     notes: Sequence[str] = (),
     series: Sequence[Series] = (),
 ) -> Page:
-    """The motion of the bodies of `scene`; the arrays are those of `run_recording`."""
+    """The page of a motion, given as arrays: it may come from any simulator.
+
+    Bodies are in the order of `scene.bodies`, fixed ones included. For a run of n steps:
+
+    - `times` (n + 1,), s;
+    - `poses` (n + 1, bodies, 3): x and y of the centre of mass (m) and the angle (rad, as
+      `Body.angle`). In space (n + 1, bodies, 7): position (m) and a unit quaternion w, x, y, z.
+      NaN where a body is not there;
+    - `motionless` (n + 1, bodies), or (n, bodies) if it is known of steps only: these bodies are
+      drawn dark;
+    - `pivots` and `solve_seconds` (n,), and the values of further `series`: the charts;
+    - `forces`: contact forces of n + 1 frames;
+    - `captions`: (frame, text), what is said from that frame on; `notes`: lines under the picture.
+
+    Raises ValueError, naming the array, if shapes do not fit together.
+    """
     recording = run_recording(
         scene,
         times,
