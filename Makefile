@@ -20,6 +20,8 @@ export VIRTUAL_ENV := $(VENV)
 export PYO3_PYTHON := $(BIN)/python
 export PIP_QUIET := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
+# Of what is installed little is imported: Python compiles that when it is.
+export PIP_NO_COMPILE := 1
 unexport CONDA_PREFIX
 
 has = $(shell command -v $(1) 2>/dev/null)
@@ -142,21 +144,25 @@ $(NOTICES): Cargo.lock viewer/node_modules/.ready release/notices.py
 	@echo "== gathering licences"
 	@$(BIN)/python release/notices.py $@
 
-# What PyPI takes: on Linux linked by zig against an old glibc, so that it runs on systems of 2014.
-wheel: tools $(VENV)/.release $(PAGES) $(NOTICES)
-	@echo "== building the wheel (optimised as a whole: some minutes)"
-	@rm -f dist/*.whl
-	@PATH="$(BIN):$$PATH" $(BIN)/maturin build --quiet $(WHEEL_LINKER) --out dist
-	@$(BIN)/twine check --strict dist/*.whl
-
+# Sources with all that Node and cargo make for them: who builds from them needs Rust only.
 sdist: tools $(VENV)/.release $(PAGES) $(NOTICES)
 	@echo "== packing the sources"
 	@rm -f dist/*.tar.gz
-	@$(BIN)/maturin sdist --quiet --out dist
+	@$(BIN)/maturin sdist --out dist >/dev/null 2>&1 || $(BIN)/maturin sdist --out dist
+	@$(BIN)/python release/readme.py dist/*.tar.gz
 	@$(BIN)/twine check --strict dist/*.tar.gz
 
+# What PyPI takes, built from the sdist; on Linux linked by zig against the glibc of 2012.
+wheel: sdist
+	@echo "== building the wheel (optimised as a whole: some minutes)"
+	@rm -rf dist/*.whl out/sdist && mkdir -p out/sdist
+	@tar xzf dist/*.tar.gz --strip-components 1 -C out/sdist
+	@cd out/sdist && PATH="$(BIN):$$PATH" $(BIN)/maturin build --quiet $(WHEEL_LINKER) \
+	    --target-dir $(CURDIR)/target --out $(CURDIR)/dist
+	@$(BIN)/twine check --strict dist/*.whl
+
 # Installs what is in dist/ on every Python found, without a compiler; from the sdist with Rust only.
-dist-test: wheel sdist
+dist-test: wheel
 	@$(BIN)/python release/dist_test.py dist
 
 $(VENV)/.release: | $(VENV)/.ready

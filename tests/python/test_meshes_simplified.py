@@ -140,9 +140,9 @@ def test_the_hull_of_a_scan_is_simplified() -> None:
     assert distance(mesh, [piece]) <= 0.02
 
 
-def test_a_million_triangles_are_simplified() -> None:
-    mesh = trimesh.creation.icosphere(8)
-    assert len(mesh.faces) > 1_000_000
+def test_hundreds_of_thousands_of_triangles_are_simplified() -> None:
+    mesh = trimesh.creation.icosphere(7)
+    assert len(mesh.faces) > 300_000
     part = read_part(mesh, simplify=0.05)
     assert part.volume == pytest.approx(4 / 3 * np.pi, rel=1e-3)
     assert part.simplification is not None

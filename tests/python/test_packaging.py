@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import importlib.metadata
 import importlib.util
+import io
 import json
 import re
 import shutil
+import subprocess
 import sys
+import tarfile
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -174,3 +177,49 @@ def test_actions_are_pinned_by_commit() -> None:
             used.setdefault(action, set()).add(rest)
     assert len(used) > 8
     assert all(len(pins) == 1 for pins in used.values()), used
+
+
+def test_links_of_a_packed_readme_are_absolute(tmp_path: Path) -> None:
+    readme = _script("readme")
+    page = '[a](docs/a.md) [b](https://b.org) [c](#c) <img src="docs/p.svg"> [d](LICENSE-MIT)'
+    made = readme.absolute(page, "https://host/us", "0.2.0")
+    assert made == (
+        "[a](https://host/us/blob/v0.2.0/docs/a.md) [b](https://b.org) [c](#c) "
+        '<img src="https://host/us/raw/v0.2.0/docs/p.svg"> '
+        "[d](https://host/us/blob/v0.2.0/LICENSE-MIT)"
+    )
+    assert "/blob/main/docs" in readme.absolute(page, "https://host/us", "0.3.0.dev0")
+    sdist = tmp_path / "drystone-0.2.0.tar.gz"
+    files = {"README.md": page, "PKG-INFO": f"Name: drystone\n\n{page}", "a/README.md": page}
+    files["Cargo.toml"] = '[workspace.package]\nrepository = "https://host/us"\n'
+    with tarfile.open(sdist, "w:gz") as archive:
+        for name, text in files.items():
+            entry = tarfile.TarInfo(f"drystone-0.2.0/{name}")
+            entry.size = len(text)
+            archive.addfile(entry, io.BytesIO(text.encode()))
+    readme.rewrite(sdist)
+    once = sdist.read_bytes()
+    with tarfile.open(sdist) as archive:
+        for name, text in files.items():
+            member = archive.extractfile(f"drystone-0.2.0/{name}")
+            assert member is not None
+            shown = name in ("README.md", "PKG-INFO")
+            assert member.read().decode() == (text.replace(page, made) if shown else text)
+    readme.rewrite(sdist)  # nothing is left to be made absolute
+    assert sdist.read_bytes() == once
+
+
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="cargo tells the features of crates")
+def test_tests_are_linked_from_what_the_wheel_is() -> None:
+    """Another feature of one crate, and cargo compiles all that use it again for the tests."""
+
+    def features(*chosen: str) -> dict[str, str]:
+        command = ["cargo", "tree", "--locked", "--prefix", "none", "--format", "{p}|{f}", *chosen]
+        ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+        lines = (line.removesuffix(" (*)").split("|") for line in ran.stdout.splitlines() if line)
+        return {crate: enabled.removesuffix(" (*)") for crate, enabled in lines}
+
+    wheel = features("--edges", "normal", "--package", "drystone-python")
+    tests = features("--edges", "normal,dev", "--workspace")
+    assert {crate: tests[crate] for crate in wheel} == wheel
+    assert len(wheel) > 50
