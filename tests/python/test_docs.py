@@ -75,3 +75,14 @@ def test_every_public_name_is_there_and_documented() -> None:
         assert isinstance(value, str) or value.__doc__
     with pytest.raises(AttributeError, match="teleport"):
         ds.teleport  # noqa: B018
+
+
+def test_the_paper_cites_what_its_bibliography_lists() -> None:
+    text = (ROOT / "paper/paper.md").read_text()
+    listed = set(
+        re.findall(r"^@\w+\{(\w+),$", (ROOT / "paper/paper.bib").read_text(), re.MULTILINE)
+    )
+    cited = set(re.findall(r"@(\w+)", text.split("---", 2)[2]))
+    assert cited == listed
+    for figure in re.findall(r"\]\((\S+\.png)\)", text):
+        assert (ROOT / "paper" / figure).is_file()
