@@ -48,7 +48,7 @@ pub const GRAVITY: Bounds = Bounds { least: 1e-12, most: 1e12, unit: " m/s^2", a
 pub const FRICTION: Bounds = Bounds { least: 0.0, most: 1e6, unit: "", advice: "with 1e6 nothing slides" };
 
 /// In motion a greater coefficient counts as this one: nothing slides where its load leans by up to 89.4 degrees from the normal.
-/// The iteration for sliding contacts (`simulate/friction.rs`) contracts by mu^2 / (1 + mu^2), and the friction at a contact's own
+/// The iteration for sliding contacts (`simulate/solve/pivots.rs`) contracts by mu^2 / (1 + mu^2), and the friction at a contact's own
 /// rounding of speeds is mu times that: from 1e3 on steps end short of Coulomb's law.
 pub const MOST_FRICTION_IN_MOTION: f64 = 100.0;
 

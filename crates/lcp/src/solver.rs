@@ -9,6 +9,7 @@
 //! Cottle and Dantzig (1968); Baraff, Fast contact force computation for nonpenetrating rigid bodies (1994);
 //! Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006).
 
+mod attempt;
 mod blocks;
 mod doubt;
 mod drive;
@@ -34,7 +35,7 @@ use crate::{
     settings::Settings,
     solution::{Solution, Status},
 };
-use doubt::{Doubtful, Repair, Zero};
+use attempt::{Doubtful, REPAIRS, Repair, Zero};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -403,7 +404,7 @@ impl Solver {
 
     fn solve_present(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         let mut rounds = 0;
-        let mut repairs = doubt::REPAIRS.iter();
+        let mut repairs = REPAIRS.iter();
         loop {
             let changed = !self.settled;
             if changed {

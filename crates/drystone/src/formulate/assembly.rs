@@ -4,11 +4,9 @@ use super::{
     answers::{Acceleration, ContactForce, force_at},
     block_rows::BlockRows,
     block_set::BlockSet,
-    body_space::FrictionCone,
-    cones::{Bound, Cones, STEEP, cone_edges},
+    cones::{Bound, Cones, FrictionCone, STEEP, cone_edges},
     generator::{Generator, Wrench},
     part::{Assemble, Components, Part},
-    push::Push,
 };
 use crate::{
     bounds::FRICTION,
@@ -106,13 +104,13 @@ impl Assembly {
         loaded.weighed()
     }
 
-    /// The same with one push for all load.
-    pub(crate) fn only(&self, push: &Push, factor: f64) -> Self {
+    /// The same without any load.
+    pub(super) fn unloaded(&self) -> Self {
         let mut alone = self.clone();
         alone.gravity = [0.0; 3];
         alone.bodies.iter_mut().for_each(|body| body.load = [0.0; 6]);
         alone.applied.fill(0.0);
-        alone.pushed(push, factor)
+        alone
     }
 
     fn weighed(mut self) -> Self {

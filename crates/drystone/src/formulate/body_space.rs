@@ -1,6 +1,6 @@
 //! Gauss's principle for a sub-assembly, on bodies and contact points: what the interior-point method takes.
 
-use super::{Assembly, BlockSet, Components, ContactForce, Push, answers::force_at};
+use super::{Assembly, BlockSet, Components, ContactForce, FrictionCone, Push, answers::force_at};
 use crate::{
     contact::Contact,
     formulate::cones::tangents,
@@ -8,16 +8,6 @@ use crate::{
 };
 use drystone_lcp::interior::{Cone, Found, Gauss, Layers, Point};
 use std::ops::Range;
-
-/// Which friction cones a question is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum FrictionCone {
-    /// Hulls of finitely many edges: the generators. In the plane these are Coulomb's own.
-    #[default]
-    Pyramid,
-    /// Coulomb's round cones.
-    Round,
-}
 
 /// A sub-assembly as [`Gauss`] takes it.
 #[derive(Debug)]

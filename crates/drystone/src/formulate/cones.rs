@@ -12,6 +12,16 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
+/// Which friction cones a question is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FrictionCone {
+    /// Hulls of finitely many edges: the generators. In the plane these are Coulomb's own.
+    #[default]
+    Pyramid,
+    /// Coulomb's round cones.
+    Round,
+}
+
 /// Whether the pyramids lie within Coulomb's cones or around them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -134,4 +134,9 @@ impl Assembly {
         };
         self.with_loads(wrench)
     }
+
+    /// The same with one push for all load.
+    pub(crate) fn only(&self, push: &Push, factor: f64) -> Self {
+        self.unloaded().pushed(push, factor)
+    }
 }

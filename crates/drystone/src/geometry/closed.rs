@@ -1,6 +1,6 @@
 //! Whether triangles make a closed surface, and which two of them meet along each edge.
 
-use super::{Vector3, polyhedron::SolidFault};
+use super::{Vector3, solid_fault::SolidFault};
 
 /// An edge of a closed surface, once.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,7 +4,7 @@
 
 use super::{
     Vector3,
-    polyhedron::{MOST_POINTS, SolidFault},
+    solid_fault::{MOST_POINTS, SolidFault},
 };
 use faer::{Mat, Side};
 use parry3d_f64::transformation::try_convex_hull;

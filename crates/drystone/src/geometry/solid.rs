@@ -1,12 +1,8 @@
 //! Rigid shapes in space: convex pieces, or a closed surface, about their centre of mass.
 
 use super::{
-    Face, PoseInSpace, Shape, Surface, Vector3,
-    closed::check_numbers,
-    crossing::crossing,
-    polyhedron::{Polyhedron, SolidFault},
-    principal,
-    surface::PLANE,
+    Face, PoseInSpace, Shape, Surface, Vector3, closed::check_numbers, crossing::crossing, polyhedron::Polyhedron,
+    principal, solid_fault::SolidFault, surface::PLANE,
 };
 use crate::interrupt::poll;
 use std::sync::Arc;

@@ -3,7 +3,8 @@
 use super::{
     Face, Vector3,
     closed::{SurfaceEdge, check_numbers, edges_of},
-    polyhedron::{Polyhedron, SolidFault},
+    polyhedron::Polyhedron,
+    solid_fault::SolidFault,
 };
 use crate::interrupt::poll;
 use parry3d_f64::{

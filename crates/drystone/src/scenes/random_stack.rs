@@ -1,5 +1,6 @@
 //! Random planning scenes in the manner of the paper's Fig. 7.
 
+mod placed;
 mod standing;
 
 use super::builder::Builder;
@@ -7,13 +8,10 @@ use super::entry::{SceneEntry, friction, integer, seed};
 use crate::error::SceneError;
 use crate::interrupt::poll;
 use crate::scene::Scene;
+use placed::{Placed, Rule, STEPS, lay_ground, scene_of};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use standing::Standing;
-
-/// Steps per metre of all lengths, so that coordinates are exact in binary and tops that look
-/// level are.
-const STEPS: f64 = 1024.0;
 
 /// Widths are drawn evenly between these, heights are one of two, in steps.
 const WIDTHS: std::ops::RangeInclusive<i64> = 512..=2560;
@@ -64,19 +62,6 @@ pub fn random_stack_where(
 ) -> Result<Scene, SceneError> {
     ENTRY.check(&[blocks as f64, seed as f64, friction])?;
     drop_blocks(blocks, seed, friction, &mut Accepting { ground: ground_width(blocks), accept })
-}
-
-/// Which blocks stay where they were dropped.
-trait Rule {
-    /// Whether the stack stands with a block on it.
-    fn stands(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError>;
-
-    /// Whether the block just asked about stands on what lies lower than it. If not, it needs a counterweight that lies
-    /// higher.
-    fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError>;
-
-    /// The block just asked about stays.
-    fn keep(&mut self) {}
 }
 
 fn drop_blocks(blocks: usize, seed: u64, friction: f64, rule: &mut dyn Rule) -> Result<Scene, SceneError> {
@@ -134,45 +119,6 @@ impl<F: FnMut(&Scene) -> bool> Rule for Accepting<F> {
     fn stands_on_lower(&mut self, placed: &[Placed], block: &Placed) -> Result<bool, SceneError> {
         let lower = placed.iter().filter(|other| other.is_lower_than(block));
         Ok((self.accept)(&scene_of(self.ground, lower.chain([block]))?))
-    }
-}
-
-/// Blocks on the ground, without friction.
-fn scene_of<'a>(ground: i64, blocks: impl Iterator<Item = &'a Placed>) -> Result<Scene, SceneError> {
-    let mut builder = Builder::new(0.0)?;
-    lay_ground(&mut builder, ground)?;
-    for block in blocks {
-        block.add_to(&mut builder)?;
-    }
-    Ok(builder.finish())
-}
-
-/// A block on the stack, in steps.
-#[derive(Debug, Clone, Copy)]
-struct Placed {
-    left: i64,
-    bottom: i64,
-    width: i64,
-    height: i64,
-}
-
-impl Placed {
-    fn is_lower_than(&self, other: &Self) -> bool {
-        2 * self.bottom + self.height < 2 * other.bottom + other.height
-    }
-
-    /// Whether they touch, or nearly.
-    fn is_near(&self, other: &Self) -> bool {
-        self.left <= other.left + other.width + 1
-            && other.left <= self.left + self.width + 1
-            && self.bottom <= other.bottom + other.height + 1
-            && other.bottom <= self.bottom + self.height + 1
-    }
-
-    fn add_to(&self, builder: &mut Builder) -> Result<(), SceneError> {
-        let metres = |steps: i64| steps as f64 / STEPS;
-        let center = [metres(2 * self.left + self.width) / 2.0, metres(2 * self.bottom + self.height) / 2.0];
-        builder.block(center, [metres(self.width), metres(self.height)])
     }
 }
 
@@ -235,10 +181,6 @@ impl Skyline {
 fn ground_width(blocks: usize) -> i64 {
     let metres = (1.25 * (1.125 * blocks as f64).sqrt()).max(3.0);
     (metres * STEPS) as i64
-}
-
-fn lay_ground(builder: &mut Builder, width: i64) -> Result<(), SceneError> {
-    builder.ground("ground", 0.0, width as f64 / STEPS, 0.5)
 }
 
 fn gave_up(placed: usize, blocks: usize) -> SceneError {

@@ -1,10 +1,6 @@
 //! What a step asks of polygons.
 
-use super::{
-    acceleration_level::AccelerationLevel,
-    formulation::{ByVelocity, Formulation, Law},
-    moving::Moving,
-};
+use super::kinematics::Kinematics;
 use crate::{
     any_scene::AnyScene,
     error::SceneError,
@@ -14,7 +10,7 @@ use crate::{
     scene::{Body, Scene},
 };
 
-impl Moving for Polygon {
+impl Kinematics for Polygon {
     type Place = [f64; 3];
 
     fn place_of(pose: &Pose) -> [f64; 3] {
@@ -48,13 +44,6 @@ impl Moving for Polygon {
 
     fn sliding_speed(_: &[[f64; 2]], [nx, ny]: &[f64; 2], _: f64, [ux, uy]: &[f64; 2]) -> f64 {
         (uy * nx - ux * ny).abs()
-    }
-
-    fn law(formulation: Formulation) -> Option<&'static dyn Law<Self>> {
-        Some(match formulation {
-            Formulation::Velocity => &ByVelocity,
-            Formulation::Acceleration => &AccelerationLevel,
-        })
     }
 
     fn of_any(scene: AnyScene) -> Result<Scene, SceneError> {

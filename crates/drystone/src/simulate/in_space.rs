@@ -1,9 +1,6 @@
 //! What a step asks of solids. Bodies turn about their principal axes, so that M is diagonal.
 
-use super::{
-    formulation::{ByVelocity, Formulation, Law},
-    moving::{Moving, masses},
-};
+use super::kinematics::{Kinematics, masses};
 use crate::{
     any_scene::AnyScene,
     error::SceneError,
@@ -13,7 +10,7 @@ use crate::{
     scene::{Body, SceneOf},
 };
 
-impl Moving for Solid {
+impl Kinematics for Solid {
     type Place = [f64; 7];
 
     fn place_of(pose: &PoseInSpace) -> [f64; 7] {
@@ -65,13 +62,6 @@ impl Moving for Solid {
         let (length, opening) = (edge_friction.hypot(1.0), dot(*normal, *u));
         let against = edges.iter().map(|edge| (opening - length * dot(*edge, *u)) / edge_friction);
         against.fold(0.0, f64::max)
-    }
-
-    fn law(formulation: Formulation) -> Option<&'static dyn Law<Self>> {
-        match formulation {
-            Formulation::Velocity => Some(&ByVelocity),
-            Formulation::Acceleration => None,
-        }
     }
 
     fn immovable(scene: &SceneOf<Self>) -> Option<String> {

@@ -6,50 +6,48 @@
 //! contacts -> formulate -> solve -> find motionless -> integrate
 //! ```
 //!
-//! - contacts: [`crate::contact::approach`], what touches or may touch within the step;
-//! - formulate: `velocity_level.rs`, one complementarity problem of impulses and velocities;
-//! - solve: in space `round.rs`, on round cones; else `solve.rs` solves it until `friction.rs` finds Coulomb's law kept; `reuse.rs` says what is taken over;
+//! - contacts: `contacts.rs`, what touches or may touch within the step;
+//! - formulate: `formulate/`, one complementarity problem of impulses and velocities;
+//! - solve: `solve/`, in space on round cones where most blocks move, else by pivots; `solve/warm_start/` says what is taken over;
 //! - find motionless: `motionless.rs`, whose blocks keep their place bit for bit;
-//! - integrate: `integrate.rs`, and `project.rs` where blocks came to overlap.
+//! - integrate: `integrate/`, and overlaps are taken back.
+//!
+//! Each is a function of plain data ([`State`](state::State), what the step before left) and knows the stages before it only. `laws/`
+//! says which problems are solved in which order, [`World`] holds the data, and what changes it is above.
 //!
 //! [`run`] makes many steps and records them. Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006), section
-//! IV; the theory is in docs/theory/velocity-level.md. What depends on the dimension is behind one trait, `moving.rs`.
+//! IV; the theory is in docs/theory/velocity-level.md. What depends on the dimension is behind one trait, `kinematics.rs`.
 
-mod acceleration_level;
-mod at_rest;
-mod coulomb;
+mod bearing;
+mod contacts;
 mod error;
-mod formulation;
-mod friction;
+mod formulate;
 mod in_plane;
 mod in_space;
 mod integrate;
-mod islands;
+mod kinematics;
+mod laws;
 mod motionless;
 mod moving;
+mod options;
 mod origin;
-mod project;
 mod pushes;
-mod reuse;
-mod round;
+mod record;
 mod run;
 mod settled;
-mod sliding;
 mod snapshot;
 mod solve;
-mod standing;
+mod state;
 mod step;
-mod velocity_level;
 mod world;
 
-pub use acceleration_level::Inconsistent;
 pub use error::{SimulationError, StepFailure};
-pub use formulation::Formulation;
-pub use friction::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
+pub use formulate::contact_problem::Velocity;
+pub use kinematics::Kinematics;
 pub use moving::Moving;
-pub use reuse::Reuse;
+pub use options::{Formulation, Options, Reuse};
+pub use record::{Inconsistent, StepRecord};
 pub use run::{Ending, Run, run};
 pub use snapshot::snapshot_dimension;
-pub use step::StepRecord;
-pub use velocity_level::Velocity;
-pub use world::{ContactImpulse, Options, World};
+pub use solve::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
+pub use world::{ContactImpulse, World};

@@ -6,7 +6,7 @@
 //! point, unless the bodies are as far from one another as from the world's origin. What is asked of the world, and what it says,
 //! is in the coordinates of the scene.
 
-use super::moving::{Moving, is_zero};
+use super::kinematics::{Kinematics, is_zero};
 use crate::{
     geometry::{Numbers, Shape, plus_times},
     scene::{Body, SceneOf},
@@ -49,7 +49,7 @@ pub(super) fn in_scene<V: Numbers>(point: V, origin: &V) -> V {
 }
 
 /// The same of a place: only its first numbers are coordinates.
-pub(super) fn place_in_scene<S: Moving>(mut place: S::Place, origin: &S::Vector) -> S::Place {
+pub(super) fn place_in_scene<S: Kinematics>(mut place: S::Place, origin: &S::Vector) -> S::Place {
     if !is_zero(origin) {
         place.as_mut().iter_mut().zip(origin.as_ref()).for_each(|(x, origin)| *x += origin);
     }

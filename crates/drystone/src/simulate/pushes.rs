@@ -1,10 +1,7 @@
 //! What may be done to bodies between two steps: velocities, forces and impulses.
 
 use super::{
-    error::SimulationError,
-    moving::{Moving, split},
-    velocity_level::wrench,
-    world::World,
+    error::SimulationError, formulate::contact_problem::wrench, kinematics::split, moving::Moving, world::World,
 };
 use crate::{
     bounds::{Bounds, COORDINATE, PUSH, VELOCITY},
@@ -19,7 +16,7 @@ impl<S: Moving> World<S> {
     /// [`SceneError::UnknownName`].
     pub fn set_velocity(&mut self, name: &str, velocity: S::Velocity) -> Result<(), SimulationError> {
         let i = self.movable(name, "velocity", velocity.as_ref(), VELOCITY)?;
-        self.velocities[i] = S::to_own_axes(&self.scene.bodies()[i], &velocity);
+        self.state.velocities[i] = S::to_own_axes(&self.state.scene.bodies()[i], &velocity);
         Ok(())
     }
 
@@ -35,7 +32,7 @@ impl<S: Moving> World<S> {
         at: Option<S::Vector>,
     ) -> Result<(), SimulationError> {
         let (i, wrench) = self.about_center(name, "force", wrench, at)?;
-        self.forces[i].as_mut().iter_mut().zip(wrench.as_ref()).for_each(|(sum, f)| *sum += f);
+        self.state.forces[i].as_mut().iter_mut().zip(wrench.as_ref()).for_each(|(sum, f)| *sum += f);
         Ok(())
     }
 
@@ -51,8 +48,8 @@ impl<S: Moving> World<S> {
         at: Option<S::Vector>,
     ) -> Result<(), SimulationError> {
         let (i, wrench) = self.about_center(name, "impulse", wrench, at)?;
-        let change = self.inverse_mass[i].as_ref().iter().zip(wrench.as_ref());
-        self.velocities[i].as_mut().iter_mut().zip(change).for_each(|(v, (inverse, p))| *v += inverse * p);
+        let change = self.state.inverse_mass[i].as_ref().iter().zip(wrench.as_ref());
+        self.state.velocities[i].as_mut().iter_mut().zip(change).for_each(|(v, (inverse, p))| *v += inverse * p);
         Ok(())
     }
 
@@ -65,7 +62,7 @@ impl<S: Moving> World<S> {
         at: Option<S::Vector>,
     ) -> Result<(usize, S::Velocity), SimulationError> {
         let i = self.movable(name, quantity, wrench_there.as_ref(), PUSH)?;
-        let body = &self.scene.bodies()[i];
+        let body = &self.state.scene.bodies()[i];
         let mut total = S::to_own_axes(body, &wrench_there);
         if let Some(at) = at {
             self.movable(name, quantity, at.as_ref(), COORDINATE)?;
@@ -86,9 +83,9 @@ impl<S: Moving> World<S> {
         values: &[f64],
         bounds: Bounds,
     ) -> Result<usize, SimulationError> {
-        let i = self.scene.index_of(name)?;
+        let i = self.state.scene.index_of(name)?;
         let body = || name.to_owned();
-        if self.scene.bodies()[i].fixed {
+        if self.state.scene.bodies()[i].fixed {
             return Err(SimulationError::Fixed { body: body(), quantity });
         }
         match values.iter().find(|&&value| !bounds.hold(value)) {

@@ -3,7 +3,7 @@
 use super::{
     error::StepFailure,
     moving::Moving,
-    step::StepRecord,
+    record::StepRecord,
     world::{ContactImpulse, World},
 };
 use crate::{geometry::Polygon, interrupt::Interrupt};

@@ -1,11 +1,7 @@
 //! Steps in which nothing moves: the first is solved, and those after it are the same.
 
-use super::{
-    moving::{Moving, is_zero},
-    reuse::Reuse,
-    step::StepRecord,
-    world::World,
-};
+use super::{kinematics::Kinematics, options::Reuse, record::StepRecord, solve::PreviousStep, state::State};
+use crate::contact::candidates::CandidateFinder;
 use drystone_lcp::Counts;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
@@ -13,10 +9,10 @@ use std::time::{Duration, Instant};
 /// A step in which nothing moved.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(bound = "")]
-pub(super) struct Settled<S: Moving> {
+pub struct Settled<S: Kinematics> {
     /// Velocities without contacts.
     free: Vec<S::Velocity>,
-    /// Of the approaches. Another finder counts its revisions anew, so that approaches are compared one by one after a snapshot.
+    /// Of the contacts. Another finder counts its revisions anew, so that contacts are compared one by one after a snapshot.
     #[serde(skip, default = "of_another_finder")]
     revision: u64,
     /// Rows that bear.
@@ -30,17 +26,23 @@ fn of_another_finder() -> u64 {
     u64::MAX
 }
 
-impl<S: Moving> World<S> {
-    /// What the next step may be compared with: this one, if nothing moved in it.
-    pub(super) fn settled(&self, free: Vec<S::Velocity>, record: &StepRecord) -> Option<Settled<S>> {
+impl<S: Kinematics> Settled<S> {
+    /// What the next step may be compared with: this one, if nothing moved in it. `free` were the velocities without contacts.
+    pub fn of(
+        state: &State<S>,
+        previous: &PreviousStep<S>,
+        finder: &CandidateFinder<S>,
+        free: Vec<S::Velocity>,
+        record: &StepRecord,
+    ) -> Option<Self> {
         let still = record.motionless.iter().all(|&still| still) && record.inconsistent.is_none();
-        let bearing = match &self.stood {
-            Some(stood) => stood.start.indices.len(),
-            None => self.route.active_rows(),
+        let bearing = match &previous.at_rest {
+            Some(solution) => solution.start.indices.len(),
+            None => previous.solver.active_rows(),
         };
-        (self.options.reuse == Reuse::Full && still && record.collisions == 0).then_some(Settled {
+        (state.options.reuse == Reuse::Full && still && record.collisions == 0).then_some(Self {
             free,
-            revision: self.finder.revision,
+            revision: finder.revision,
             bearing,
             residual: record.residual,
             friction_error: record.friction_error,
@@ -48,35 +50,40 @@ impl<S: Moving> World<S> {
         })
     }
 
-    /// Makes the step before over again, if this is the same: nothing moves, and no body or push has come or gone.
-    pub(super) fn stay(&mut self, free: &[S::Velocity], begun: Instant) -> Option<StepRecord> {
-        let (settled, before) = self.settled.as_mut().zip(self.before.as_ref())?;
-        if settled.free != free || !self.velocities.iter().all(is_zero) {
+    /// The record of the step before over again, if this is the same: nothing moves, and no body or push has come or gone.
+    pub fn again(
+        &mut self,
+        state: &State<S>,
+        previous: &PreviousStep<S>,
+        finder: &CandidateFinder<S>,
+        free: &[S::Velocity],
+        begun: Instant,
+    ) -> Option<StepRecord> {
+        let before = previous.problem.as_ref()?;
+        if self.free != free || !state.is_at_rest() {
             return None;
         }
-        if settled.revision != self.finder.revision {
-            let given = before.approaches().iter().filter(|approach| !self.finder.is_open(&approach.id));
-            if !self.finder.approaches().eq(given) {
+        if self.revision != finder.revision {
+            let given = before.candidates().iter().filter(|candidate| !finder.is_open(&candidate.id));
+            if !finder.candidates().eq(given) {
                 return None;
             }
-            settled.revision = self.finder.revision;
+            self.revision = finder.revision;
         }
-        self.forces.fill(S::Velocity::default());
-        self.steps += 1;
         Some(StepRecord {
-            motionless: self.motionless.clone(),
+            motionless: state.motionless.clone(),
             counts: Counts::default(),
             solves: 0,
             rows: before.len(),
-            rows_reused: settled.bearing,
+            rows_reused: self.bearing,
             solve_time: Duration::ZERO,
             time: begun.elapsed(),
-            residual: settled.residual,
-            friction_error: settled.friction_error,
-            exact: settled.exact,
+            residual: self.residual,
+            friction_error: self.friction_error,
+            exact: self.exact,
             collisions: 0,
             inconsistent: None,
-            penetration: self.finder.penetration(),
+            penetration: finder.penetration(),
             projections: 0,
         })
     }

@@ -6,17 +6,16 @@
 
 use super::{
     error::SimulationError,
-    formulation::Formulation,
-    moving::{Moving, axes},
-    reuse::{Kept, Reuse},
+    formulate::contact_problem::ContactProblem,
+    kinematics::axes,
+    moving::Moving,
+    options::{Formulation, Options, Reuse},
     settled::Settled,
-    sliding::Carried,
-    standing::Stood,
-    velocity_level::VelocityLevel,
-    world::{Options, World},
+    solve::{ActiveRows, RestSolution, SavedStart},
+    world::World,
 };
 use crate::{
-    contact::approach::{Approach, ApproachOf},
+    contact::candidates::{CandidateContact, CandidateOf},
     formulate::Cones,
     io,
 };
@@ -35,7 +34,7 @@ fn seal<S: Moving>() -> Seal {
 /// What decides how a world moves on.
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "")]
-struct State<S: Moving> {
+struct SavedState<S: Moving> {
     /// As JSON: the bodies where they are, seen from the world's origin, their shapes, masses and friction, gravity, the tolerance.
     scene: String,
     origin: S::Vector,
@@ -54,14 +53,14 @@ struct State<S: Moving> {
 #[derive(Serialize, Deserialize)]
 #[serde(bound = "")]
 struct Saved<S: Moving> {
-    state: State<S>,
-    before: Option<Vec<ApproachOf<S>>>,
-    stood: Option<Stood>,
+    state: SavedState<S>,
+    before: Option<Vec<CandidateOf<S>>>,
+    at_rest: Option<RestSolution>,
     settled: Option<Settled<S>>,
     sliding: Vec<f64>,
     impulses: Vec<S::Vector>,
-    kept: Kept<ApproachOf<S>>,
-    carried: Carried,
+    solver: SavedStart<CandidateOf<S>>,
+    active_rows: ActiveRows,
 }
 
 /// The dimension of the world that a snapshot was taken of.
@@ -82,18 +81,18 @@ fn fault(reason: impl ToString) -> SimulationError {
 }
 
 impl<S: Moving> World<S> {
-    fn state(&self) -> State<S> {
-        State {
-            scene: S::to_json(&self.scene),
+    fn saved_state(&self) -> SavedState<S> {
+        SavedState {
+            scene: S::to_json(&self.state.scene),
             origin: self.origin,
-            dt: self.options.dt,
-            reuse: self.options.reuse,
-            restitution: self.options.restitution,
-            formulation: self.options.formulation,
-            cones: self.options.cones,
-            velocities: self.velocities.clone(),
-            forces: self.forces.clone(),
-            motionless: self.motionless.clone(),
+            dt: self.state.options.dt,
+            reuse: self.state.options.reuse,
+            restitution: self.state.options.restitution,
+            formulation: self.state.options.formulation,
+            cones: self.state.options.cones,
+            velocities: self.state.velocities.clone(),
+            forces: self.state.forces.clone(),
+            motionless: self.state.motionless.clone(),
             steps: self.steps,
         }
     }
@@ -102,20 +101,20 @@ impl<S: Moving> World<S> {
     /// velocities, pending forces, gravity, options and step counts, to the bit. What was computed for the step before is not in
     /// it: a failed step forgets that.
     pub fn hash(&self) -> u64 {
-        sealed::digest(&seal::<S>().close(&self.state()))
+        sealed::digest(&seal::<S>().close(&self.saved_state()))
     }
 
     /// The whole state, to go on from with [`Self::restore`].
     pub fn snapshot(&self) -> Vec<u8> {
         seal::<S>().close(&Saved::<S> {
-            state: self.state(),
-            before: self.before.as_ref().map(|before| before.approaches().to_vec()),
-            stood: self.stood.clone(),
+            state: self.saved_state(),
+            before: self.previous.problem.as_ref().map(|before| before.candidates().to_vec()),
+            at_rest: self.previous.at_rest.clone(),
             settled: self.settled.clone(),
-            sliding: self.sliding.clone(),
-            impulses: self.impulses.clone(),
-            kept: self.route.kept(),
-            carried: self.carried.clone(),
+            sliding: self.previous.sliding.clone(),
+            impulses: self.previous.impulses.clone(),
+            solver: self.previous.solver.save(),
+            active_rows: self.previous.active_rows.clone(),
         })
     }
 
@@ -125,31 +124,33 @@ impl<S: Moving> World<S> {
     /// [`SimulationError::Snapshot`] for anything that is not one, whole and undamaged.
     pub fn restore(bytes: &[u8]) -> Result<Self, SimulationError> {
         let saved: Saved<S> = seal::<S>().open(bytes).map_err(fault)?;
-        let State { scene, origin, dt, reuse, restitution, formulation, cones, .. } = &saved.state;
+        let SavedState { scene, origin, dt, reuse, restitution, formulation, cones, .. } = &saved.state;
         let scene = io::from_json(scene, "its scene").and_then(S::of_any).map_err(fault)?;
         let options =
             Options { dt: *dt, reuse: *reuse, restitution: *restitution, formulation: *formulation, cones: *cones };
         let mut world = Self::resting(scene, *origin, options).map_err(fault)?;
-        if !saved.fits(world.velocities.len()) {
+        if !saved.fits(world.state.velocities.len()) {
             return Err(fault(UNFIT));
         }
-        world.velocities = saved.state.velocities;
-        world.forces = saved.state.forces;
-        world.motionless = saved.state.motionless;
+        world.state.velocities = saved.state.velocities;
+        world.state.forces = saved.state.forces;
+        world.state.motionless = saved.state.motionless;
         world.steps = saved.state.steps;
-        world.before = saved.before.map(|approaches| world.problem_of(approaches));
-        let rows = world.before.as_ref().map_or(0, VelocityLevel::len);
-        if saved.stood.as_ref().is_some_and(|stood| stood.q.len() != rows) {
+        world.settled = saved.settled;
+        let gravity = world.state.scene.gravity();
+        let previous = &mut world.previous;
+        previous.problem = saved.before.map(|contacts| previous.formulate(contacts, &options, gravity));
+        let rows = previous.problem.as_ref().map_or(0, ContactProblem::len);
+        if saved.at_rest.as_ref().is_some_and(|solution| solution.q.len() != rows) {
             return Err(fault(UNFIT));
         }
-        world.stood = saved.stood;
-        world.settled = saved.settled;
-        world.sliding = saved.sliding;
-        world.impulses = saved.impulses;
-        world.carried = saved.carried;
-        if let Some(before) = &world.before {
-            let matrix = |q: Vec<f64>| before.problem(&world.inverse_mass, q);
-            world.route.take_up(&saved.kept, &matrix).map_err(fault)?;
+        previous.at_rest = saved.at_rest;
+        previous.sliding = saved.sliding;
+        previous.impulses = saved.impulses;
+        previous.active_rows = saved.active_rows;
+        if let Some(before) = &previous.problem {
+            let matrix = |q: Vec<f64>| before.problem(&world.state.inverse_mass, q);
+            previous.solver.restore(&saved.solver, &matrix).map_err(fault)?;
         }
         Ok(world)
     }
@@ -160,11 +161,11 @@ const UNFIT: &str = "its parts do not fit together";
 impl<S: Moving> Saved<S> {
     /// Whether the parts have the sizes of `n` bodies and of one another.
     fn fits(&self, n: usize) -> bool {
-        let State { velocities, forces, motionless, .. } = &self.state;
+        let SavedState { velocities, forces, motionless, .. } = &self.state;
         let points = self.before.as_ref().map_or(0, Vec::len);
         let finite = |v: &S::Velocity| v.as_ref().iter().all(|v| v.is_finite());
-        let between = |approach: &ApproachOf<S>| {
-            let Approach { id, .. } = approach;
+        let between = |candidate: &CandidateOf<S>| {
+            let CandidateContact { id, .. } = candidate;
             id.bodies[0] < id.bodies[1] && id.bodies[1] < n
         };
         [velocities.len(), forces.len(), motionless.len()] == [n; 3]

@@ -2,7 +2,7 @@
 
 use super::{
     Cycle, REFINE, Role, STALL, Solver,
-    doubt::{CURVATURE_ROUNDING, FINE_CURVATURE, FINE_PIVOT, IMAGE_ROUNDING},
+    attempt::{CURVATURE_ROUNDING, FINE_CURVATURE, FINE_PIVOT, IMAGE_ROUNDING},
     largest, take,
 };
 use crate::{

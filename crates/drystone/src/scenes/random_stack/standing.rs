@@ -3,7 +3,7 @@
 //! Every block kept left the stack standing. So the stack stays put up in one solver, and each block that may come
 //! next is put on it and taken off again. Only contacts of new blocks are looked for, and only they are formulated.
 
-use super::{Placed, Rule, scene_of};
+use super::placed::{Placed, Rule, scene_of};
 use crate::{error::SceneError, formulate::Assembly};
 use drystone_lcp::cone::{Columns, ConeSolver, Mark, Membership};
 use std::ops::Range;

@@ -1,36 +1,7 @@
-//! Coulomb's law at sliding contacts, by the fixed point of De Saxcé.
+//! Anderson's method: a fixed point from the differences of iterates.
 //!
-//! The convex problem lets a sliding contact part: on the edge that opposes the sliding, w = 0 means
-//! `u_n + c = mu (|u_t| - s)`, so with s = 0 a sliding body is lifted at mu |u_t|. With `s = |u_t|` the contact stays
-//! closed, and the conditions are Coulomb's. So solve, take the sliding speeds found for s, and solve again: the same A
-//! with another q, from the forces of the last time. In the region of one active set the map from s to |u_t| is linear, and a
-//! few differences of iterates (Anderson) jump to its fixed point; alone it contracts by about mu^2 / (1 + mu^2).
-//!
-//! G. De Saxcé and Z.-Q. Feng, "The bipotential method: a constructive approach to design the complete contact law with
-//! friction and improved numerical algorithms", 1998; V. Acary, F. Cadoux, C. Lemaréchal and J. Malick, "A formulation of the
-//! linear discrete Coulomb friction problem via convex optimization", 2011 (existence, and this iteration).
-
-/// What is aimed at: a contact that bears parts, or one that does not closes beyond its gap, at no more than this speed, m/s.
-/// Speeds above 1 m/s are known to a share of themselves, so there it is this share.
-pub const FRICTION_TOLERANCE: f64 = 1e-10;
-
-/// What is accepted after [`PATIENCE`] solves: where many contacts are about to slide, rounding is felt before
-/// [`FRICTION_TOLERANCE`] is reached. A contact that parts at this speed has opened by a nanometre after a second.
-pub const FRICTION_ACCEPTED: f64 = 1e-9;
-
-/// Solves with the tighter tolerance. Scenes that settle take one or two, sliding blocks three to six.
-const PATIENCE: usize = 12;
-
-/// Solves in one step at most. Where contacts change between sliding and sticking in turns the iteration may not
-/// converge; the step then goes on with the best iterate, which lets nothing through and loses energy, and says how far it is
-/// off.
-pub(super) const MOST_SOLVES: usize = 60;
-
-/// Whether an error of Coulomb's law (m/s) may stand after so many solves, where bodies move at `speed`.
-pub(super) fn acceptable(error: f64, solves: usize, speed: f64) -> bool {
-    let tolerance = if solves <= PATIENCE { FRICTION_TOLERANCE } else { FRICTION_ACCEPTED };
-    error <= tolerance * speed.max(1.0)
-}
+//! D. Anderson, "Iterative procedures for nonlinear integral equations", 1965; H. Walker and P. Ni, "Anderson acceleration for
+//! fixed-point iterations", 2011.
 
 /// Differences of iterates that are remembered.
 const MEMORY: usize = 10;

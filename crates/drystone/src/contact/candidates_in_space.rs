@@ -11,8 +11,8 @@
 
 use super::{
     ContactId, Feature,
-    approach::{Approach, ApproachOf, Approaching, FirstMet, Meeting, Near},
     borders::at_borders,
+    candidates::{CandidateContact, CandidateOf, Colliding, FirstMet, Meeting, Near},
     id::{SolidFeature, SolidPart},
     placed::{Placed, TouchPoint},
     separation::{Between, Separation, along_edges, along_faces, planes},
@@ -24,7 +24,7 @@ use crate::{
     scene::Body,
 };
 
-impl Approaching for Solid {
+impl Colliding for Solid {
     type Velocity = [f64; 6];
     type Levers = [[f64; 3]; 3];
     type Outline = Placed;
@@ -38,7 +38,7 @@ impl Approaching for Solid {
     }
 
     fn meet(near: &Near<'_, Self>) -> Meeting<Self> {
-        let mut meeting = Meeting { approaches: Vec::new(), open: Vec::new(), separation: f64::INFINITY };
+        let mut meeting = Meeting { candidates: Vec::new(), open: Vec::new(), separation: f64::INFINITY };
         for i in 0..near.outlines[0].pieces.len() {
             for j in 0..near.outlines[1].pieces.len() {
                 let pieces = Pieces::of(near, [i, j]);
@@ -47,13 +47,13 @@ impl Approaching for Solid {
                 if (points.is_empty() || at_borders) && distance > -near.tolerance && distance <= near.reach {
                     meeting.open.push([i, j]);
                 }
-                meeting.approaches.extend(points.iter().map(|point| pieces.approach(point)));
+                meeting.candidates.extend(points.iter().map(|point| pieces.candidate(point)));
             }
         }
         meeting
     }
 
-    fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<ApproachOf<Self>> {
+    fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<CandidateOf<Self>> {
         let pieces = Pieces::of(near, pieces);
         pieces.first_met(allowed)
     }
@@ -196,7 +196,7 @@ impl<'a> Pieces<'a> {
     }
 
     /// Where the second piece, moved in a straight line, first meets the first.
-    fn first_met(&self, allowed: f64) -> Vec<ApproachOf<Solid>> {
+    fn first_met(&self, allowed: f64) -> Vec<CandidateOf<Solid>> {
         let [a, b] = self.near.travel.map(|[x, y, z, ..]| Vector3::new(x, y, z));
         let Some((plane, middle)) = self.plane_first_met(allowed) else { return Vec::new() };
         if let Some(border) = at_borders(self.near.outlines, self.numbers, self.offset, self.near.tolerance) {
@@ -204,15 +204,15 @@ impl<'a> Pieces<'a> {
         }
         let points = self.points(&plane, middle * (b - a), NARROW * self.near.tolerance);
         let points = if points.is_empty() { self.deepest(&plane).into_iter().collect() } else { points };
-        points.iter().map(|point| self.approach(point)).collect()
+        points.iter().map(|point| self.candidate(point)).collect()
     }
 
     /// Borders that are on one another already.
-    fn at_border(&self, met: &TouchPoint) -> ApproachOf<Solid> {
+    fn at_border(&self, met: &TouchPoint) -> CandidateOf<Solid> {
         let [a, b] = met.features;
         let id = ContactId { bodies: self.near.bodies, feature: Feature::Borders { a, b } };
         let point = Point { features: met.features, at: met.point, normal: met.normal, gap: met.gap };
-        Approach { id, ..self.approach(&point) }
+        CandidateContact { id, ..self.candidate(&point) }
     }
 
     /// The plane at which they do, and when, in steps. None if they do not meet within the step.
@@ -258,10 +258,10 @@ impl<'a> Pieces<'a> {
         of(1, at - self.offset) - of(0, at)
     }
 
-    fn approach(&self, point: &Point) -> ApproachOf<Solid> {
+    fn candidate(&self, point: &Point) -> CandidateOf<Solid> {
         let ([a, b], origin) = (self.near.outlines, Vector3::from_array(self.near.places[0]));
         let feature = Feature::Solids { a: point.features[0], b: point.features[1] };
-        Approach {
+        CandidateContact {
             id: ContactId { bodies: self.near.bodies, feature },
             normal: point.normal.to_array(),
             point: (origin + point.at).to_array(),

@@ -1,22 +1,24 @@
 //! Islands: bodies that can push one another in a step. Between two of them A has no entry.
 
-use super::velocity_level::{Velocity, VelocityLevel};
-use crate::contact::approach::Approach;
+use crate::{
+    contact::candidates::CandidateContact,
+    simulate::formulate::contact_problem::{ContactProblem, Velocity},
+};
 
 /// The island of every body. Fixed bodies belong to none: nothing is passed on through them.
 #[derive(Debug)]
-pub(super) struct Islands {
+pub struct Islands {
     parent: Vec<usize>,
     movable: Vec<bool>,
 }
 
 impl Islands {
-    /// Joins the bodies of every approach. `inverse_mass` is zero for fixed bodies.
-    pub fn new(contacts: &VelocityLevel, inverse_mass: &[Velocity]) -> Self {
+    /// Joins the bodies of every contact. `inverse_mass` is zero for fixed bodies.
+    pub fn new(contacts: &ContactProblem, inverse_mass: &[Velocity]) -> Self {
         let movable = inverse_mass.iter().map(|mass| *mass != [0.0; 3]).collect();
         let mut islands = Self { parent: (0..inverse_mass.len()).collect(), movable };
-        for approach in contacts.approaches() {
-            let [a, b] = approach.id.bodies;
+        for candidate in contacts.candidates() {
+            let [a, b] = candidate.id.bodies;
             if islands.movable[a] && islands.movable[b] {
                 let (a, b) = (islands.of_body(a), islands.of_body(b));
                 islands.parent[a.max(b)] = a.min(b);
@@ -33,18 +35,18 @@ impl Islands {
         body
     }
 
-    /// The island that an approach belongs to.
-    pub fn of(&self, approach: &Approach) -> usize {
-        let [a, b] = approach.id.bodies;
+    /// The island that a contact belongs to.
+    pub fn of(&self, candidate: &CandidateContact) -> usize {
+        let [a, b] = candidate.id.bodies;
         self.of_body(if self.movable[a] { a } else { b })
     }
 
-    /// The approaches of every island with one that is `chosen`, in order.
-    pub fn with(&self, contacts: &VelocityLevel, chosen: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+    /// The contacts of every island with one that is `chosen`, in order.
+    pub fn with(&self, contacts: &ContactProblem, chosen: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let mut members = vec![Vec::new(); self.parent.len()];
         let mut wanted = vec![false; self.parent.len()];
-        for (k, approach) in contacts.approaches().iter().enumerate() {
-            let island = self.of(approach);
+        for (k, candidate) in contacts.candidates().iter().enumerate() {
+            let island = self.of(candidate);
             members[island].push(k);
             wanted[island] |= chosen(k);
         }
@@ -55,7 +57,7 @@ impl Islands {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BodyOptions, Scene, contact::approach::ApproachFinder, formulate::Cones};
+    use crate::{BodyOptions, Scene, contact::candidates::CandidateFinder, formulate::Cones};
 
     /// Two columns on one fixed ground, of two blocks and of three, are two islands.
     #[test]
@@ -66,15 +68,15 @@ mod tests {
         for place in [[0.0, 0.5], [0.0, 1.5], [3.0, 0.5], [3.0, 1.5], [3.0, 2.5]] {
             scene.add_box(place, [1.0, 1.0], 0.0, BodyOptions::default()).unwrap();
         }
-        let mut finder = ApproachFinder::default();
+        let mut finder = CandidateFinder::default();
         finder.find(&scene, &[[0.0; 3]; 6]);
-        let contacts = VelocityLevel::new(finder.approaches().copied().collect(), Cones::default(), [0.0, -9.81]);
+        let contacts = ContactProblem::new(finder.candidates().copied().collect(), Cones::default(), [0.0, -9.81]);
         let mass: Vec<_> = scene.bodies().iter().map(|body| if body.fixed { [0.0; 3] } else { [1.0; 3] }).collect();
         let islands = Islands::new(&contacts, &mass);
         let sizes: Vec<usize> = islands.with(&contacts, |_| true).iter().map(Vec::len).collect();
         assert_eq!(sizes, [4, 6]);
-        let second = islands.with(&contacts, |k| contacts.approaches()[k].id.bodies.contains(&5));
+        let second = islands.with(&contacts, |k| contacts.candidates()[k].id.bodies.contains(&5));
         assert_eq!(second.len(), 1);
-        assert!(second[0].iter().all(|&k| islands.of(&contacts.approaches()[k]) == 3));
+        assert!(second[0].iter().all(|&k| islands.of(&contacts.candidates()[k]) == 3));
     }
 }

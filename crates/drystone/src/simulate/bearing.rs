@@ -2,9 +2,9 @@
 //! the step's own impulses do. Nothing of this is carried: the impulses of a world stay what they are.
 
 use super::{
+    formulate::contact_problem::ContactProblem,
     moving::Moving,
     origin::in_scene,
-    velocity_level::VelocityLevel,
     world::{ContactImpulse, World},
 };
 use crate::{
@@ -16,7 +16,7 @@ impl<S: Moving> World<S> {
     /// The impulses of the last step at the contacts that bore: of all that hold the bodies the canonical ones
     /// ([`canonical`](crate::canonical)) if nothing moved in it, else those of the step.
     pub fn bearing_impulses(&self) -> Vec<ContactImpulse<S::Vector>> {
-        let still = self.motionless.iter().all(|&still| still);
+        let still = self.state.motionless.iter().all(|&still| still);
         let canonical = if still { self.canonical_impulses() } else { None };
         let every = canonical.unwrap_or_else(|| self.contact_impulses());
         every.into_iter().filter(|contact| contact.along_normal > 0.0).collect()
@@ -24,19 +24,19 @@ impl<S: Moving> World<S> {
 
     /// None if contacts of bodies where they are do not bear what those of the step did.
     fn canonical_impulses(&self) -> Option<Vec<ContactImpulse<S::Vector>>> {
-        let dt = self.options.dt;
-        let approaches = self.before.iter().flat_map(VelocityLevel::approaches);
-        let forces: Vec<Between> = approaches
-            .zip(&self.impulses)
-            .map(|(approach, impulse)| {
+        let dt = self.state.options.dt;
+        let candidates = self.previous.problem.iter().flat_map(ContactProblem::candidates);
+        let forces: Vec<Between> = candidates
+            .zip(&self.previous.impulses)
+            .map(|(candidate, impulse)| {
                 let force = S::in_space(*impulse).map(|p| p / dt);
-                (approach.id.bodies, S::in_space(approach.point), force)
+                (candidate.id.bodies, S::in_space(candidate.point), force)
             })
             .collect();
         if forces.is_empty() {
             return None;
         }
-        let assembly = Assembly::with_cones(&self.scene, self.options.cones).ok()?;
+        let assembly = Assembly::with_cones(&self.state.scene, self.state.options.cones).ok()?;
         let cone = assembly.cone_of_rest(FrictionCone::Pyramid);
         let found = as_strong_as(&assembly, &assembly.every_block(), cone, forces.into_iter())?;
         let impulse = |force: &ContactForce| {

@@ -1,24 +1,27 @@
 //! How far a motion is from Coulomb's law, computed from the motion alone, whatever it was found by.
 
-use super::velocity_level::{Velocity, VelocityLevel, in_frame, normal_and_tangential, wrench};
-use crate::{contact::approach::Approach, geometry::Polygon};
+use crate::{
+    contact::candidates::CandidateContact,
+    geometry::Polygon,
+    simulate::formulate::contact_problem::{ContactProblem, Velocity, in_frame, normal_and_tangential, wrench},
+};
 
-/// Largest departure over some approaches, m/s. `impulses`: in world axes, N s; `offsets`: how
+/// Largest error over the contacts, m/s. `impulses`: in world axes, N s; `offsets`: how
 /// fast each may close, m/s. An impulse counts with the speed that it gives at its own contact.
-pub(super) fn departure(
-    contacts: &VelocityLevel,
+pub fn largest(
+    contacts: &ContactProblem,
     velocities: &[Velocity],
     impulses: &[[f64; 2]],
     offsets: &[f64],
     inverse_mass: &[[f64; 3]],
 ) -> f64 {
-    let of = |(k, approach): (usize, &Approach)| {
-        let motion = normal_and_tangential(approach, velocities);
-        let [nx, ny] = approach.normal;
-        let given = [[nx, ny], [-ny, nx]].map(|direction| yielding(approach, direction, inverse_mass));
-        at_contact(approach.friction, motion, in_frame(approach, impulses[k]), offsets[k], given)
+    let of = |(k, candidate): (usize, &CandidateContact)| {
+        let motion = normal_and_tangential(candidate, velocities);
+        let [nx, ny] = candidate.normal;
+        let given = [[nx, ny], [-ny, nx]].map(|direction| yielding(candidate, direction, inverse_mass));
+        at_contact(candidate.friction, motion, in_frame(candidate, impulses[k]), offsets[k], given)
     };
-    contacts.approaches().iter().enumerate().map(of).fold(0.0, f64::max)
+    contacts.candidates().iter().enumerate().map(of).fold(0.0, f64::max)
 }
 
 /// The natural residual of: `0 <= p_n` complementary to `u_n + c >= 0`; `|p_t| <= mu p_n`; and either the contact does not
@@ -32,10 +35,10 @@ fn at_contact(friction: f64, [u_n, u_t]: [f64; 2], [p_n, p_t]: [f64; 2], offset:
 }
 
 /// Relative speed along a direction that a unit impulse along it gives: `d' J M^-1 J' d`, 1/kg.
-fn yielding(approach: &Approach, direction: [f64; 2], inverse_mass: &[[f64; 3]]) -> f64 {
+fn yielding(candidate: &CandidateContact, direction: [f64; 2], inverse_mass: &[[f64; 3]]) -> f64 {
     let of = |side: usize| {
-        let wrench = wrench::<Polygon>(&approach.levers[side], &direction, 1.0);
-        let mass = inverse_mass[approach.id.bodies[side]];
+        let wrench = wrench::<Polygon>(&candidate.levers[side], &direction, 1.0);
+        let mass = inverse_mass[candidate.id.bodies[side]];
         (0..3).map(|axis| mass[axis] * wrench[axis] * wrench[axis]).sum::<f64>()
     };
     of(0) + of(1)

@@ -13,7 +13,7 @@
 
 use super::{
     ContactId, Feature,
-    approach::{Approach, Approaching, FirstMet, Meeting, Near},
+    candidates::{CandidateContact, Colliding, FirstMet, Meeting, Near},
     narrow_phase::{Outline, at_corners, greatest_separation, most_opposed},
 };
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
     scene::Body,
 };
 
-impl Approaching for Polygon {
+impl Colliding for Polygon {
     type Velocity = [f64; 3];
     type Levers = [[f64; 2]; 1];
     type Outline = Outline;
@@ -39,7 +39,7 @@ impl Approaching for Polygon {
         Corners { near, origin: a, offset: b - a }.meet()
     }
 
-    fn first_met(near: &Near<'_, Self>, _: [usize; 2], allowed: f64) -> Vec<Approach> {
+    fn first_met(near: &Near<'_, Self>, _: [usize; 2], allowed: f64) -> Vec<CandidateContact> {
         let [a, b] = near.places.map(Vector::from_array);
         let corners = Corners { near, origin: a, offset: b - a };
         let met = corners.first_met(allowed);
@@ -77,9 +77,9 @@ impl Corners<'_> {
         let (face_a, separation_a) = greatest_separation(a, b, self.offset);
         let (face_b, separation_b) = greatest_separation(b, a, -self.offset);
         let separation = separation_a.max(separation_b);
-        let (mut approaches, mut cornered) = (Vec::new(), false);
+        let (mut candidates, mut cornered) = (Vec::new(), false);
         if separation > self.near.reach {
-            return Meeting { approaches, open: Vec::new(), separation };
+            return Meeting { candidates, open: Vec::new(), separation };
         }
         // Of equal faces the first body's, so that rounding does not decide.
         let second = separation_b > separation_a + self.near.tolerance;
@@ -90,10 +90,10 @@ impl Corners<'_> {
             cornered = separation > -self.near.tolerance && self.cornered(&ends);
             let bears = |end: &End| !cornered || end.gap > self.near.tolerance;
             let ends = ends.into_iter().filter(|(_, end)| bears(end));
-            approaches.extend(ends.filter_map(|(owner, end)| self.approach(owner, &end)));
+            candidates.extend(ends.filter_map(|(owner, end)| self.candidate(owner, &end)));
         }
-        let open = cornered || approaches.is_empty() && separation > -self.near.tolerance;
-        Meeting { approaches, open: if open { vec![[0, 0]] } else { Vec::new() }, separation }
+        let open = cornered || candidates.is_empty() && separation > -self.near.tolerance;
+        Meeting { candidates, open: if open { vec![[0, 0]] } else { Vec::new() }, separation }
     }
 
     /// What the face shares with the other body's most opposed one, along it, metres: the end is not above the beginning
@@ -142,19 +142,19 @@ impl Corners<'_> {
         }
     }
 
-    fn approach(&self, owner: usize, end: &End) -> Option<Approach> {
+    fn candidate(&self, owner: usize, end: &End) -> Option<CandidateContact> {
         if end.gap > self.near.reach || !self.meets(owner, end) {
             return None;
         }
         Some(self.between(owner, end))
     }
 
-    fn between(&self, owner: usize, end: &End) -> Approach {
+    fn between(&self, owner: usize, end: &End) -> CandidateContact {
         let (feature, normal) = match owner {
             0 => (Feature::CornerOfB { a: end.face, b: end.corner }, end.normal),
             _ => (Feature::CornerOfA { a: end.corner, b: end.face }, -end.normal),
         };
-        Approach {
+        CandidateContact {
             id: ContactId { bodies: self.near.bodies, feature },
             normal: normal.to_array(),
             point: (self.origin + end.at).to_array(),
@@ -210,7 +210,7 @@ impl Corners<'_> {
     }
 
     /// A corner that is on a corner already: each of two distances, along and across a face, may use the whole tolerance.
-    fn at_corners(&self) -> Option<Approach> {
+    fn at_corners(&self) -> Option<CandidateContact> {
         let [a, b] = self.near.outlines;
         let apart = |[i, j]: [usize; 2]| a.vertices[i].distance(b.vertices[j] + self.offset);
         let pairs = self.faces(0).flat_map(|i| self.faces(1).map(move |j| [i, j]));
@@ -218,7 +218,7 @@ impl Corners<'_> {
         let border =
             at_corners([a, b], nearest, self.offset).filter(|_| apart(nearest) <= 2.0 * self.near.tolerance)?;
         let met = border.points.first()?;
-        Some(Approach {
+        Some(CandidateContact {
             id: ContactId { bodies: self.near.bodies, feature: met.feature },
             normal: met.normal.to_array(),
             point: (self.origin + met.point).to_array(),

@@ -10,35 +10,76 @@
 //! w = N' M^-1 N l + gap,    0 <= l  complementary to  w >= 0,    x <- x + M^-1 N l
 //! ```
 //!
-//! over the normals N of all approaches of bodies that moved; motionless ones are held. What a body gains in height by it is
+//! over the normals N of all contacts of bodies that moved; motionless ones are held. What a body gains in height by it is
 //! taken from its kinetic energy, so that a step never adds energy.
 
-use super::{
-    moving::{Moving, components, is_zero, masses, permanent, split},
-    velocity_level::wrench,
+use crate::{
+    contact::{
+        candidates::{CandidateFinder, CandidateOf},
+        pair_tolerance,
+    },
+    geometry::product,
+    scene::SceneOf,
+    simulate::{
+        contacts::find,
+        formulate::{contact_problem::wrench, free_motion::free_velocities},
+        kinematics::{Kinematics, components, is_zero, masses, permanent, split},
+        state::State,
+    },
 };
-use crate::{contact::approach::ApproachOf, geometry::product, scene::SceneOf};
 use drystone_lcp::{Counts, Problem, Settings, Solver, Status, cone::Columns};
 
 /// Times the problem is linearised anew. Each leaves a square of what the last one moved, so two are the rule.
-pub(super) const ROUNDS: usize = 10;
+const ROUNDS: usize = 10;
 
 /// Share of its own entry of the matrix by which each contact gives way where bodies are jammed.
 const COMPLIANCE: f64 = 1e-3;
 
-/// Moves bodies apart so that no gap of the approaches is negative, to first order. `inverse_mass` is zero for what is
+/// What was taken back.
+#[derive(Debug, Default)]
+pub struct Projected {
+    pub rounds: usize,
+    pub counts: Counts,
+}
+
+/// Takes overlaps back until none is deeper than the contact tolerance, or nothing helps. Finds the contacts of the next step.
+pub fn project<S: Kinematics>(state: &mut State<S>, finder: &mut CandidateFinder<S>) -> Projected {
+    let mut projected = Projected::default();
+    loop {
+        find(finder, state, &free_velocities(state));
+        let deep = |([a, b], depth): ([usize; 2], f64)| {
+            let bodies = state.scene.bodies();
+            let held = state.motionless[a] && state.motionless[b];
+            !held && depth > pair_tolerance(&state.scene, &bodies[a], &bodies[b])
+        };
+        if projected.rounds == ROUNDS || !finder.overlaps().any(deep) {
+            return projected;
+        }
+        let held = |(mass, still): (&S::Velocity, &bool)| if *still { S::Velocity::default() } else { *mass };
+        let inverse_mass: Vec<_> = state.inverse_mass.iter().zip(&state.motionless).map(held).collect();
+        let free = |candidate: &&CandidateOf<S>| candidate.id.bodies.iter().any(|&i| !is_zero(&inverse_mass[i]));
+        let candidates: Vec<&CandidateOf<S>> = finder.candidates().filter(free).collect();
+        let Some(change) = way_out::<S>(&candidates, &inverse_mass, &mut projected.counts) else {
+            return projected;
+        };
+        shift(&mut state.scene, &mut state.velocities, &change);
+        projected.rounds += 1;
+    }
+}
+
+/// Moves bodies apart so that no gap of the contacts is negative, to first order. `inverse_mass` is zero for what is
 /// held. Where bodies are jammed between others there may be no such motion; each contact then gives way a little, which
 /// leaves a share of the overlap. Returns the change of every place.
-pub(super) fn way_out<S: Moving>(
-    approaches: &[&ApproachOf<S>],
+fn way_out<S: Kinematics>(
+    candidates: &[&CandidateOf<S>],
     inverse_mass: &[S::Velocity],
     counts: &mut Counts,
 ) -> Option<Vec<S::Velocity>> {
-    part::<S>(approaches, inverse_mass, 0.0, counts).or_else(|| part::<S>(approaches, inverse_mass, COMPLIANCE, counts))
+    part::<S>(candidates, inverse_mass, 0.0, counts).or_else(|| part::<S>(candidates, inverse_mass, COMPLIANCE, counts))
 }
 
-fn part<S: Moving>(
-    approaches: &[&ApproachOf<S>],
+fn part<S: Kinematics>(
+    candidates: &[&CandidateOf<S>],
     inverse_mass: &[S::Velocity],
     compliance: f64,
     counts: &mut Counts,
@@ -46,12 +87,12 @@ fn part<S: Moving>(
     let size = components::<S>();
     let mut weights: Vec<f64> = inverse_mass.iter().flat_map(|mass| mass.as_ref()).copied().collect();
     let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
-    for approach in approaches {
+    for candidate in candidates {
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let body = approach.id.bodies[side];
+            let body = candidate.id.bodies[side];
             if !is_zero(&inverse_mass[body]) {
                 indices.extend(size * body..size * (body + 1));
-                data.extend(wrench::<S>(&approach.levers[side], &approach.normal, sign).as_ref());
+                data.extend(wrench::<S>(&candidate.levers[side], &candidate.normal, sign).as_ref());
             }
         }
         if compliance > 0.0 {
@@ -64,18 +105,18 @@ fn part<S: Moving>(
         }
         indptr.push(indices.len());
     }
-    let gaps = approaches.iter().map(|approach| approach.gap).collect();
+    let gaps = candidates.iter().map(|candidate| candidate.gap).collect();
     let g = Columns::new(weights.len(), &indptr, &indices, &data).ok()?;
     let problem = Problem::from_generators_and_q(&g, &weights, gaps).ok()?;
     let mut solver = Solver::new(problem, Settings::default()).ok()?;
-    solver.add_rows(&(0..approaches.len()).collect::<Vec<_>>()).ok()?;
+    solver.add_rows(&(0..candidates.len()).collect::<Vec<_>>()).ok()?;
     let status = solver.solve();
     *counts = *counts + solver.counts();
     if status != Ok(Status::Solved) {
         return None;
     }
     let mut change = vec![S::Velocity::default(); inverse_mass.len()];
-    for row in 0..approaches.len() {
+    for row in 0..candidates.len() {
         for p in (indptr[row]..indptr[row + 1]).filter(|&p| indices[p] < size * inverse_mass.len()) {
             let (body, axis) = (indices[p] / size, indices[p] % size);
             change[body].as_mut()[axis] += inverse_mass[body].as_ref()[axis] * data[p] * solver.z(row);
@@ -85,7 +126,7 @@ fn part<S: Moving>(
 }
 
 /// Changes the places, and takes the potential energy gained from the motion of the bodies that were moved.
-pub(super) fn shift<S: Moving>(scene: &mut SceneOf<S>, velocities: &mut [S::Velocity], change: &[S::Velocity]) {
+fn shift<S: Kinematics>(scene: &mut SceneOf<S>, velocities: &mut [S::Velocity], change: &[S::Velocity]) {
     let gravity = scene.gravity();
     let (mut gained, mut kinetic) = (0.0, 0.0);
     let moved: Vec<usize> = (0..change.len()).filter(|&i| !is_zero(&change[i])).collect();

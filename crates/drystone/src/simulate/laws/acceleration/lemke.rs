@@ -24,21 +24,25 @@
 //! J.-S. Pang and J. Trinkle, "Complementarity formulations and existence of solutions of dynamic multi-rigid-body contact
 //! problems with Coulomb friction", 1996.
 
-use super::{
-    acceleration_level::{Inconsistent, SLIDES},
-    velocity_level::{Velocity, VelocityLevel, normal_and_tangential, push, wrench},
-};
 use crate::{
-    contact::{ContactId, approach::Approach},
+    contact::{ContactId, candidates::CandidateContact},
     geometry::Polygon,
+    simulate::{
+        formulate::contact_problem::{ContactProblem, Velocity, normal_and_tangential, push, wrench},
+        record::Inconsistent,
+        solve::{ActiveRows, FRICTION_ACCEPTED},
+    },
 };
 use drystone_lcp::{Counts, LcpError, Lemke, Method, Problem, Settings, Solution, Start, Status};
-use serde::{Deserialize, Serialize};
 use std::mem;
+
+/// A contact slides if it is faster than this, m/s (above 1 m/s, than this share of the fastest body). Ten times what may be left of
+/// the speed of one that rests. The choice does not show: what is taken for sliding and would reverse, rests.
+pub const SLIDES: f64 = 10.0 * FRICTION_ACCEPTED;
 
 /// What a contact does at the beginning of a step, after collisions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Mode {
+pub enum Mode {
     /// It does not slide; friction is what it takes to keep it so, within the cone.
     Rests,
     /// It slides along the tangent in this direction, +1 or -1; friction opposes it.
@@ -46,9 +50,9 @@ pub(super) enum Mode {
 }
 
 /// What a step gives to an island.
-pub(super) struct Island<'a> {
-    pub contacts: &'a VelocityLevel,
-    /// Its approaches, by number.
+pub struct Island<'a> {
+    pub contacts: &'a ContactProblem,
+    /// Its contacts, by number.
     pub members: Vec<usize>,
     /// What each of them does.
     pub modes: Vec<Mode>,
@@ -58,13 +62,13 @@ pub(super) struct Island<'a> {
     pub offsets: &'a [f64],
     pub inverse_mass: &'a [[f64; 3]],
     /// What bore in the step before, to start from; nothing without reuse.
-    pub carried: &'a Carried,
+    pub previous: &'a ActiveRows,
     /// What slides more slowly may be stopped within the step by forces, m/s.
     pub slow: f64,
 }
 
 /// An island that was solved.
-pub(super) struct Found {
+pub struct Found {
     pub members: Vec<usize>,
     pub motion: IslandMotion,
     pub residual: f64,
@@ -74,7 +78,7 @@ pub(super) struct Found {
 }
 
 /// How an island moves.
-pub(super) struct IslandMotion {
+pub struct IslandMotion {
     /// Along the normal and the tangent of every member, N s.
     pub impulses: Vec<[f64; 2]>,
     /// Of all bodies; those of other islands are free here.
@@ -83,25 +87,9 @@ pub(super) struct IslandMotion {
 
 /// What it took.
 #[derive(Debug, Default)]
-pub(super) struct Work {
+pub struct Work {
     pub solves: usize,
     pub counts: Counts,
-}
-
-/// Which rows of each contact had forces, in the order of identities: where the next step's solve of their island starts.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Carried(Vec<(ContactId, Vec<bool>)>);
-
-impl Carried {
-    pub fn add(&mut self, contacts: impl IntoIterator<Item = (ContactId, Vec<bool>)>) {
-        self.0.extend(contacts);
-        self.0.sort_by_key(|(id, _)| *id);
-    }
-
-    fn rows(&self, id: ContactId) -> Option<&[bool]> {
-        let place = self.0.binary_search_by_key(&id, |(id, _)| *id).ok()?;
-        Some(&self.0[place].1)
-    }
 }
 
 /// One solve for given modes, with the first row of every member.
@@ -192,7 +180,7 @@ impl Island<'_> {
             };
             Ok(Attempt { starts, problem, solution })
         });
-        let contact = self.approach(0).id;
+        let contact = self.candidate(0).id;
         let attempt = solved.map_err(|_| Inconsistent { contact, status: Status::NumericalTrouble.name() })?;
         work.counts = work.counts + attempt.solution.counts;
         work.solves += 1;
@@ -204,7 +192,7 @@ impl Island<'_> {
         let known = |member: usize| {
             let first = starts[member];
             let kind = |rows: &&[bool]| rows.len() == starts[member + 1] - first;
-            let rows = self.carried.rows(self.approach(member).id).filter(kind).unwrap_or_default();
+            let rows = self.previous.of(self.candidate(member).id).filter(kind).unwrap_or_default();
             rows.iter().enumerate().filter(|(_, bears)| **bears).map(move |(k, _)| first + k)
         };
         Some((0..self.members.len()).flat_map(known).collect::<Vec<_>>()).filter(|rows| !rows.is_empty())
@@ -218,29 +206,29 @@ impl Island<'_> {
     fn found(self, attempt: &Attempt, motion: IslandMotion, work: Work) -> Found {
         let rows = |member: usize| attempt.starts[member]..attempt.starts[member + 1];
         let bears = |member: usize| rows(member).map(|row| attempt.solution.z[row] > 0.0).collect();
-        let active = (0..self.members.len()).map(|member| (self.approach(member).id, bears(member))).collect();
+        let active = (0..self.members.len()).map(|member| (self.candidate(member).id, bears(member))).collect();
         Found { members: self.members, motion, residual: attempt.solution.residual, work, active }
     }
 
     /// Sliding speed of a member, with its sign, m/s.
     fn sliding(&self, member: usize, velocities: &[Velocity]) -> f64 {
-        normal_and_tangential(self.approach(member), velocities)[1]
+        normal_and_tangential(self.candidate(member), velocities)[1]
     }
 
-    fn approach(&self, member: usize) -> &Approach {
-        &self.contacts.approaches()[self.members[member]]
+    fn candidate(&self, member: usize) -> &CandidateContact {
+        &self.contacts.candidates()[self.members[member]]
     }
 
     /// The rows, and the first one of every member.
     fn rows(&self) -> (Vec<Row>, Vec<usize>) {
         let (mut rows, mut starts) = (Vec::new(), vec![0]);
         for member in 0..self.members.len() {
-            let approach = self.approach(member);
-            let [nx, ny] = approach.normal;
-            let [u_n, u_t] = normal_and_tangential(approach, self.free);
+            let candidate = self.candidate(member);
+            let [nx, ny] = candidate.normal;
+            let [u_n, u_t] = normal_and_tangential(candidate, self.free);
             let wrenches = |force: [f64; 2]| {
                 let on = |side: usize, sign: f64| {
-                    (approach.id.bodies[side], wrench::<Polygon>(&approach.levers[side], &force, sign))
+                    (candidate.id.bodies[side], wrench::<Polygon>(&candidate.levers[side], &force, sign))
                 };
                 [on(0, -1.0), on(1, 1.0)]
             };
@@ -251,12 +239,12 @@ impl Island<'_> {
             let closing = u_n + self.offsets[self.members[member]];
             match self.modes[member] {
                 Mode::Slides(sign) => {
-                    let drag = approach.friction * sign;
+                    let drag = candidate.friction * sign;
                     row(normal, [nx + drag * ny, ny - drag * nx], closing);
                 }
                 Mode::Rests => {
                     row(normal, normal, closing);
-                    if approach.friction > 0.0 {
+                    if candidate.friction > 0.0 {
                         row(tangent, tangent, u_t);
                         row(against, against, -u_t);
                         row(nothing, nothing, 0.0);
@@ -284,7 +272,7 @@ impl Island<'_> {
                     m[side * n + speed] = 1.0;
                     m[speed * n + side] = -1.0;
                 }
-                m[speed * n + first] = self.approach(member).friction;
+                m[speed * n + first] = self.candidate(member).friction;
             }
         }
         Problem::from_dense(&m, rows.iter().map(|row| row.constant).collect())
@@ -306,7 +294,7 @@ impl Island<'_> {
         let of = |member: usize| {
             let first = starts[member];
             let tangential = match self.modes[member] {
-                Mode::Slides(sign) => -sign * self.approach(member).friction * z[first],
+                Mode::Slides(sign) => -sign * self.candidate(member).friction * z[first],
                 Mode::Rests if starts[member + 1] - first == RESTING_ROWS => z[first + ALONG] - z[first + AGAINST],
                 Mode::Rests => 0.0,
             };
@@ -318,10 +306,10 @@ impl Island<'_> {
     fn velocities(&self, impulses: &[[f64; 2]]) -> Vec<Velocity> {
         let mut velocities = self.free.to_vec();
         for (member, &[p_n, p_t]) in impulses.iter().enumerate() {
-            let approach = self.approach(member);
-            let [nx, ny] = approach.normal;
+            let candidate = self.candidate(member);
+            let [nx, ny] = candidate.normal;
             let impulse = [p_n * nx - p_t * ny, p_n * ny + p_t * nx];
-            push::<Polygon>(approach, &impulse, self.inverse_mass, &mut velocities);
+            push::<Polygon>(candidate, &impulse, self.inverse_mass, &mut velocities);
         }
         velocities
     }
@@ -329,7 +317,7 @@ impl Island<'_> {
     /// Takes sliding contacts that bear and have come to slide the other way for resting ones. Whether there are any.
     fn stop_reversed(&mut self, motion: &IslandMotion) -> bool {
         let reversed = |&member: &usize| {
-            let bears = motion.impulses[member][0] > 0.0 && self.approach(member).friction > 0.0;
+            let bears = motion.impulses[member][0] > 0.0 && self.candidate(member).friction > 0.0;
             matches!(self.modes[member], Mode::Slides(sign) if bears && sign * self.sliding(member, &motion.velocities) < 0.0)
         };
         let members: Vec<usize> = (0..self.members.len()).filter(reversed).collect();
@@ -354,7 +342,7 @@ impl Island<'_> {
     fn inconsistent(&self, Attempt { starts, problem, solution }: &Attempt) -> Inconsistent {
         let members = 0..self.members.len();
         if let Some(member) = members.clone().find(|&member| sinks(problem, starts[member])) {
-            return Inconsistent { contact: self.approach(member).id, status: Status::NoSolution.name() };
+            return Inconsistent { contact: self.candidate(member).id, status: Status::NoSolution.name() };
         }
         let blame = |member: usize| {
             let part = solution.ray.as_ref().map_or(0.0, |ray| ray[starts[member]]);
@@ -365,7 +353,7 @@ impl Island<'_> {
             a_slides.cmp(&b_slides).then(a_part.total_cmp(&b_part))
         };
         let member = members.max_by(by_blame).unwrap_or(0);
-        Inconsistent { contact: self.approach(member).id, status: solution.status.name() }
+        Inconsistent { contact: self.candidate(member).id, status: solution.status.name() }
     }
 }
 

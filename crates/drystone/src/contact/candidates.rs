@@ -1,6 +1,6 @@
 //! Contacts that are closed, or that may close within a time step: a point of one block before a face of another.
 //!
-//! `find_contacts` says what touches now; a time step also needs what will touch before it ends. An approach is a material point
+//! `find_contacts` says what touches now; a time step also needs what will touch before it ends. A candidate is a material point
 //! where two blocks may press, a normal, and how far it is from closing there:
 //!
 //! ```text
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! exactly, turning of the face included, because the velocity of the face's block is taken at the same point. Which points
-//! there are is a matter of the shape: `approach_in_plane.rs`, `approach_in_space.rs`. Here they are kept pair by pair.
+//! there are is a matter of the shape: `candidates_in_plane.rs`, `candidates_in_space.rs`. Here they are kept pair by pair.
 
 use super::{ContactId, broad_phase, pair_tolerance, tolerance_of};
 use crate::bounds::MOST_FRICTION_IN_MOTION;
@@ -22,7 +22,7 @@ use std::fmt::Debug;
 
 /// A point where two blocks may press on one another within the step. `V` is a vector, `L` the levers of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Approach<V = [f64; 2], L = [[f64; 2]; 1]> {
+pub struct CandidateContact<V = [f64; 2], L = [[f64; 2]; 1]> {
     /// Which features meet; `bodies` are the indices of the two blocks, the lower first.
     pub id: ContactId,
     /// Unit vector from `bodies[0]` into `bodies[1]`.
@@ -37,10 +37,10 @@ pub struct Approach<V = [f64; 2], L = [[f64; 2]; 1]> {
     pub friction: f64,
 }
 
-/// The approach of a shape.
-pub type ApproachOf<S> = Approach<<S as Shape>::Vector, <S as Approaching>::Levers>;
+/// The candidate of a shape.
+pub type CandidateOf<S> = CandidateContact<<S as Shape>::Vector, <S as Colliding>::Levers>;
 
-impl<V: PartialEq, L: PartialEq> Approach<V, L> {
+impl<V: PartialEq, L: PartialEq> CandidateContact<V, L> {
     /// Whether the generators are the same: everything but the gap.
     pub fn same_geometry(&self, other: &Self) -> bool {
         self.id == other.id
@@ -51,7 +51,7 @@ impl<V: PartialEq, L: PartialEq> Approach<V, L> {
 }
 
 /// Shapes of which it is known where they can meet.
-pub trait Approaching: Shape + Send + Sync + 'static {
+pub trait Colliding: Shape + Send + Sync + 'static {
     /// How fast a body moves, or how far: along the axes of the world (m/s or m), then its turning (rad/s or rad), in space about its
     /// principal axes.
     type Velocity: Numbers;
@@ -73,11 +73,11 @@ pub trait Approaching: Shape + Send + Sync + 'static {
 
     /// Where two convex pieces of them, of which nothing is before a face of the other, first meet on the ways that
     /// `near.travel` says. They do not if they come to be no deeper than `allowed` in one another, metres.
-    fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<ApproachOf<Self>>;
+    fn first_met(near: &Near<'_, Self>, pieces: [usize; 2], allowed: f64) -> Vec<CandidateOf<Self>>;
 }
 
 /// Two bodies that may meet. Everything is relative to the first one's centroid.
-pub struct Near<'a, S: Approaching> {
+pub struct Near<'a, S: Colliding> {
     /// Indices of the two.
     pub bodies: [usize; 2],
     /// What they are.
@@ -95,42 +95,42 @@ pub struct Near<'a, S: Approaching> {
 }
 
 /// What was found of a pair.
-pub struct Meeting<S: Approaching> {
+pub struct Meeting<S: Colliding> {
     /// In any order.
-    pub approaches: Vec<ApproachOf<S>>,
+    pub candidates: Vec<CandidateOf<S>>,
     /// Convex pieces, of the first and of the second, that are not deeper in one another than the tolerance and of which nothing
-    /// is before a face of the other. Whether and where they meet depends on their ways: [`Approaching::first_met`].
+    /// is before a face of the other. Whether and where they meet depends on their ways: [`Colliding::first_met`].
     pub open: Vec<[usize; 2]>,
     /// The greatest separation over all planes that may part them, metres: negative by the depth of an overlap.
     pub separation: f64,
 }
 
-/// Approaches of a scene at one moment, in the order of (body, body, feature), kept pair by pair.
+/// Candidates of a scene at one moment, in the order of (body, body, feature), kept pair by pair.
 #[derive(Debug, Clone)]
-pub struct ApproachFinder<S: Approaching> {
+pub struct CandidateFinder<S: Colliding> {
     outlines: Vec<S::Outline>,
     /// What the outlines and pairs were found for.
     seen: Vec<(S::Pose, S::Velocity)>,
     pairs: Vec<Pair<S>>,
     /// Pairs looked at since the finder was made: a measure of the work done.
     pub pairs_looked_at: usize,
-    /// Goes up whenever the approaches may have changed.
+    /// Goes up whenever the candidates may have changed.
     pub revision: u64,
 }
 
 #[derive(Debug, Clone)]
-struct Pair<S: Approaching> {
+struct Pair<S: Colliding> {
     bodies: [usize; 2],
-    approaches: Vec<ApproachOf<S>>,
+    candidates: Vec<CandidateOf<S>>,
     /// See [`Meeting`].
     open: Vec<[usize; 2]>,
     /// See [`Meeting`].
     separation: f64,
     /// One of them that turns too far in the step for its points' ways to be straight.
-    whirls: Option<usize>,
+    turns_too_far: Option<usize>,
 }
 
-impl<S: Approaching> Default for ApproachFinder<S> {
+impl<S: Colliding> Default for CandidateFinder<S> {
     fn default() -> Self {
         Self { outlines: Vec::new(), seen: Vec::new(), pairs: Vec::new(), pairs_looked_at: 0, revision: 0 }
     }
@@ -139,8 +139,8 @@ impl<S: Approaching> Default for ApproachFinder<S> {
 /// Operations to look at a pair, about.
 const PAIR: usize = 1000;
 
-impl<S: Approaching> ApproachFinder<S> {
-    /// Finds every approach within the bodies' travel. Pairs of which neither the place nor the travel has changed since the
+impl<S: Colliding> CandidateFinder<S> {
+    /// Finds every candidate within the bodies' travel. Pairs of which neither the place nor the travel has changed since the
     /// last call are not looked at again.
     pub fn find(&mut self, scene: &SceneOf<S>, travel: &[S::Velocity]) {
         let bodies = scene.bodies();
@@ -179,9 +179,9 @@ impl<S: Approaching> ApproachFinder<S> {
         *self = Self { pairs_looked_at: self.pairs_looked_at, revision: self.revision + 1, ..Self::default() };
     }
 
-    /// The approaches found, in order.
-    pub fn approaches(&self) -> impl Iterator<Item = &ApproachOf<S>> {
-        self.pairs.iter().flat_map(|pair| &pair.approaches)
+    /// The candidates found, in order.
+    pub fn candidates(&self) -> impl Iterator<Item = &CandidateOf<S>> {
+        self.pairs.iter().flat_map(|pair| &pair.candidates)
     }
 
     /// Where bodies meet that go these ways and of which nothing is before a face of the other. Which plane parts two corners or
@@ -195,9 +195,9 @@ impl<S: Approaching> ApproachFinder<S> {
         scene: &SceneOf<S>,
         travel: &[S::Velocity],
         at_rest: impl Fn(usize) -> bool,
-    ) -> Vec<ApproachOf<S>> {
+    ) -> Vec<CandidateOf<S>> {
         let farthest = |&i: &usize| shift::<S>(&travel[i]) + turn::<S>(&travel[i]) * scene.bodies()[i].shape.radius();
-        let mut met: Vec<ApproachOf<S>> = Vec::new();
+        let mut met: Vec<CandidateOf<S>> = Vec::new();
         for pair in self.pairs.iter().filter(|pair| !pair.open.is_empty()) {
             let near = self.near(scene, pair.bodies, travel);
             let allowed = if pair.bodies.iter().all(|&i| at_rest(i)) { 0.0 } else { near.tolerance };
@@ -226,16 +226,16 @@ impl<S: Approaching> ApproachFinder<S> {
     }
 
     /// A body that turns by more than [`MOST_TURN`] within reach of another, and the pair.
-    pub fn whirling(&self) -> Option<(usize, [usize; 2])> {
-        self.pairs.iter().find_map(|pair| Some((pair.whirls?, pair.bodies)))
+    pub fn turns_too_far(&self) -> Option<(usize, [usize; 2])> {
+        self.pairs.iter().find_map(|pair| Some((pair.turns_too_far?, pair.bodies)))
     }
 
     fn look_at(&self, scene: &SceneOf<S>, bodies: [usize; 2], travel: &[S::Velocity]) -> Pair<S> {
         let near = self.near(scene, bodies, travel);
-        let Meeting { mut approaches, open, separation } = S::meet(&near);
-        approaches.sort_by_key(|approach| approach.id);
-        let whirls = bodies.into_iter().find(|&i| separation <= near.reach && turn::<S>(&travel[i]) > MOST_TURN);
-        Pair { bodies, approaches, open, separation, whirls }
+        let Meeting { mut candidates, open, separation } = S::meet(&near);
+        candidates.sort_by_key(|candidate| candidate.id);
+        let turns_too_far = bodies.into_iter().find(|&i| separation <= near.reach && turn::<S>(&travel[i]) > MOST_TURN);
+        Pair { bodies, candidates, open, separation, turns_too_far }
     }
 
     fn near(&self, scene: &SceneOf<S>, bodies: [usize; 2], travel: &[S::Velocity]) -> Near<'_, S> {
@@ -302,18 +302,18 @@ impl<P: Copy> FirstMet<P> {
 pub const MOST_TURN: f64 = 1.0;
 
 /// How far a body turns, radians, or how fast, rad/s.
-pub(crate) fn turn<S: Approaching>(velocity: &S::Velocity) -> f64 {
+pub(crate) fn turn<S: Colliding>(velocity: &S::Velocity) -> f64 {
     norm(&velocity.as_ref()[S::Vector::default().as_ref().len()..])
 }
 
 /// How far a centroid goes, metres, or how fast, m/s.
-pub(crate) fn shift<S: Approaching>(velocity: &S::Velocity) -> f64 {
+pub(crate) fn shift<S: Colliding>(velocity: &S::Velocity) -> f64 {
     norm(&velocity.as_ref()[..S::Vector::default().as_ref().len()])
 }
 
 /// How far beyond its outline a body may come within the step, metres, with the contact tolerance. No turn takes a point
 /// further than across.
-fn reach<S: Approaching>(scene: &SceneOf<S>, i: usize, travel: &S::Velocity) -> f64 {
+fn reach<S: Colliding>(scene: &SceneOf<S>, i: usize, travel: &S::Velocity) -> f64 {
     let body = &scene.bodies()[i];
     let way = shift::<S>(travel) + turn::<S>(travel).min(2.0) * body.shape.radius();
     tolerance_of(scene, body) + if body.fixed { 0.0 } else { way }

@@ -1,0 +1,25 @@
+//! What a law of motion is.
+
+use crate::simulate::{
+    error::StepFailure,
+    formulate::contact_problem::ContactProblem,
+    kinematics::Kinematics,
+    solve::{Motion, PreviousStep},
+    state::State,
+};
+
+/// How the velocities at the end of a step follow from those at its beginning. Contacts before and integration after
+/// are the same for all.
+pub trait Law<S: Kinematics>: Sync {
+    /// Solves a step. `free` (bodies) are the velocities without contacts, `v* = v + h M^-1 F`.
+    ///
+    /// # Errors
+    /// [`StepFailure::Unsolved`].
+    fn motion(
+        &self,
+        state: &State<S>,
+        previous: &mut PreviousStep<S>,
+        contacts: &ContactProblem<S>,
+        free: &[S::Velocity],
+    ) -> Result<Motion<S>, StepFailure>;
+}

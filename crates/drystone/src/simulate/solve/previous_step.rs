@@ -1,0 +1,91 @@
+//! What a step leaves to the next one, to start from.
+
+use super::{
+    active_rows::ActiveRows,
+    warm_start::{WarmStart, warm_start},
+};
+use crate::{
+    contact::candidates::CandidateOf,
+    simulate::{
+        formulate::contact_problem::ContactProblem,
+        kinematics::Kinematics,
+        options::{Options, Reuse},
+    },
+};
+use drystone_lcp::{LcpError, Start};
+use serde::{Deserialize, Serialize};
+
+/// The problem of the last step, if it was solved, and its solution.
+#[derive(Debug)]
+pub struct PreviousStep<S: Kinematics> {
+    pub problem: Option<ContactProblem<S>>,
+    /// Sliding speed at each of its contacts, m/s.
+    pub sliding: Vec<f64>,
+    /// Impulse at each of its contacts, in world axes, N s.
+    pub impulses: Vec<S::Vector>,
+    /// On the acceleration level with full reuse: where solves of islands with sliding contacts start.
+    pub active_rows: ActiveRows,
+    /// The solution, where no solver was made for it.
+    pub at_rest: Option<RestSolution>,
+    /// The solver of pivots, with what it takes over.
+    pub solver: Box<dyn WarmStart<S>>,
+}
+
+/// The solution of the problem of a step at rest, for which no solver was made.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RestSolution {
+    /// Rows that bear, with their impulses.
+    pub start: Start,
+    pub q: Vec<f64>,
+}
+
+impl<S: Kinematics> PreviousStep<S> {
+    /// There was none.
+    pub fn none(reuse: Reuse) -> Self {
+        Self {
+            problem: None,
+            sliding: Vec::new(),
+            impulses: Vec::new(),
+            active_rows: ActiveRows::default(),
+            at_rest: None,
+            solver: warm_start(reuse),
+        }
+    }
+
+    /// Drops everything but the counts of the work done.
+    pub fn forget(&mut self) {
+        self.solver.forget();
+        self.problem = None;
+        self.sliding.clear();
+        self.impulses.clear();
+        self.active_rows = ActiveRows::default();
+        self.at_rest = None;
+    }
+
+    /// The rows of some contacts.
+    pub fn formulate(&self, contacts: Vec<CandidateOf<S>>, options: &Options, gravity: S::Vector) -> ContactProblem<S> {
+        ContactProblem::after(self.problem.as_ref(), contacts, options.cones, gravity)
+    }
+
+    /// Makes a solver for a step that was solved without one: the next step differs from it.
+    pub fn make_solver_at_rest(&mut self, inverse_mass: &[S::Velocity]) -> Result<(), LcpError> {
+        let Some((problem, RestSolution { start, q })) = self.problem.as_ref().zip(self.at_rest.take()) else {
+            return Ok(());
+        };
+        match self.solver.load_solved(problem.problem(inverse_mass, q)?, &start) {
+            // Its rows depend on one another, or nearly: this solve begins from nothing.
+            Err(LcpError::Start(_)) => {
+                self.forget();
+                Ok(())
+            }
+            done => done,
+        }
+    }
+
+    /// Sliding speeds of the step before at the contacts that are still there; those up to `least` count as none.
+    pub fn sliding_at(&self, problem: &ContactProblem<S>, least: f64) -> Vec<f64> {
+        let Some(before) = &self.problem else { return vec![0.0; problem.candidates().len()] };
+        let speeds = problem.matches(before).map(|(_, old)| old.map_or(0.0, |old| self.sliding[old]));
+        speeds.map(|s| if s > least { s } else { 0.0 }).collect()
+    }
+}

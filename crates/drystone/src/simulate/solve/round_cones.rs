@@ -1,0 +1,171 @@
+//! A step on Coulomb's round cones: `drystone_contact` finds impulses and velocities at once, from the impulses of the step before.
+//!
+//! In space pivots need pyramids, on which a plate thrown along a floor curves, and solve 13 to 23 problems a step where blocks
+//! tumble. Here all that counts is how far the answer is from Coulomb's law; docs/theory/step-solver.md has what was measured.
+
+use super::{
+    previous_step::PreviousStep,
+    step_problem::{Motion, StepProblem},
+};
+use crate::{
+    contact::candidates::CandidateOf,
+    geometry::{norm, product},
+    simulate::{
+        formulate::contact_problem::{ContactProblem, relative_velocity, wrench},
+        kinematics::{Kinematics, axes, is_zero},
+        options::Reuse,
+        state::State,
+    },
+};
+use drystone_contact::{Bodies, Contact, Settings, Status};
+use drystone_lcp::Counts;
+use std::time::Instant;
+
+/// An answer further from Coulomb's law than this share of the speeds is left to pivots. Their pyramids are off the cone by
+/// up to 7.6 % of the friction: what is nearer is the better answer, though it is not exact.
+const COARSE: f64 = 1e-4;
+
+/// A quarter of the blocks are many.
+const MANY: usize = 4;
+
+/// A block slower than this share of what gravity gives it in a step comes to rest, or settles by rounding of its place: pivots end that
+/// to the bit.
+const SLOW: f64 = 1e-3;
+
+/// Newton steps in one island: where a heap needs more, more seldom help.
+const NEWTON_STEPS: usize = 200;
+
+/// Whether a step is solved on round cones. Not in the plane, where pivots are exact, nor for the modes of reuse that are about
+/// pivots. Where few blocks move amid many that rest, pivots with the factor of the step before are ten times faster; so they go on
+/// until [`MANY`] move, and have no factor to go on with after that. Nor where all are [`SLOW`].
+fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>) -> bool {
+    if axes::<S>() != 3 || state.options.reuse != Reuse::Full {
+        return false;
+    }
+    let count = |of: &[S::Velocity]| of.iter().filter(|x| !is_zero(*x)).count();
+    let slow = SLOW * norm(state.scene.gravity().as_ref()) * state.options.dt;
+    if state.velocities.iter().all(|velocity| norm(velocity.as_ref()) <= slow) {
+        return false;
+    }
+    let (movable, moving) = (count(&state.inverse_mass), count(&state.velocities));
+    let kept = previous.solver.last_problem().is_some() || previous.at_rest.is_some();
+    (previous.problem.is_some() && !kept) || (moving > 0 && MANY * moving >= movable)
+}
+
+/// Solves a step on round cones. None where it is left to pivots, or nothing near the law was found.
+pub fn solve_on_round_cones<S: Kinematics>(
+    state: &State<S>,
+    previous: &mut PreviousStep<S>,
+    step: &StepProblem<'_, S>,
+) -> Option<Motion<S>> {
+    let candidates = step.contacts.candidates();
+    // Without friction cones are lines, and pivots exact.
+    if !on_round_cones(state, previous) || candidates.iter().all(|candidate| candidate.friction == 0.0) {
+        return None;
+    }
+    let begun = Instant::now();
+    let mut place = vec![None; state.inverse_mass.len()];
+    let mut bodies = Bodies { size: 6, ..Bodies::default() };
+    for (i, (inverse, free)) in state.inverse_mass.iter().zip(step.free).enumerate() {
+        if !is_zero(inverse) {
+            place[i] = Some(bodies.len());
+            bodies.inverse_mass.extend(inverse.as_ref());
+            bodies.free.extend(free.as_ref());
+        }
+    }
+    let frames: Vec<[S::Vector; 3]> = candidates.iter().map(|candidate| frame::<S>(&candidate.normal)).collect();
+    bodies.contacts =
+        (0..candidates.len()).map(|k| contact::<S>(&candidates[k], step.offsets[k], &frames[k], &place)).collect();
+    let start = previous.problem.as_ref().map(|before| start(previous, step.contacts, before, &frames));
+    let scale = norm(state.scene.gravity().as_ref()) * state.options.dt;
+    let settings = Settings { scale, newton_steps: NEWTON_STEPS, ..Settings::default() };
+    let solution = bodies.solve(start.as_deref(), &settings).ok()?;
+    let speed = solution.tolerance / drystone_contact::RELATIVE_TOLERANCE;
+    if solution.error.is_nan() || solution.error > COARSE * speed {
+        return None;
+    }
+    // What pivots had taken over is of another step from now on.
+    previous.solver.forget();
+    previous.at_rest = None;
+    let mut velocities = step.free.to_vec();
+    for (velocity, place) in velocities.iter_mut().zip(&place) {
+        if let Some(place) = place {
+            velocity.as_mut().copy_from_slice(&solution.velocities[6 * place..6 * place + 6]);
+        }
+    }
+    let sliding = candidates.iter().zip(&frames).map(|(candidate, [_, one, two])| {
+        let u = relative_velocity::<S>(candidate, &velocities);
+        product(&u, one).hypot(product(&u, two))
+    });
+    Some(Motion {
+        sliding: sliding.collect(),
+        impulses: frames.iter().zip(solution.impulses.chunks_exact(3)).map(|(frame, p)| sum::<S>(frame, p)).collect(),
+        velocities,
+        friction_error: solution.error,
+        exact: solution.status == Status::Solved,
+        residual: if speed > 0.0 { solution.error / speed } else { 0.0 },
+        solves: 1,
+        rows_reused: 0,
+        time: begun.elapsed(),
+        counts: Counts::default(),
+        collisions: 0,
+        inconsistent: None,
+    })
+}
+
+/// The impulses of the step before at the contacts that are still there, in the frames of now.
+fn start<S: Kinematics>(
+    previous: &PreviousStep<S>,
+    problem: &ContactProblem<S>,
+    before: &ContactProblem<S>,
+    frames: &[[S::Vector; 3]],
+) -> Vec<f64> {
+    let of = |(k, old): (usize, Option<usize>)| {
+        let impulse = old.and_then(|old| previous.impulses.get(old));
+        let along = |axis: &S::Vector| impulse.map_or(0.0, |impulse| product(impulse, axis));
+        [along(&frames[k][0]), along(&frames[k][1]), along(&frames[k][2])]
+    };
+    problem.matches(before).flat_map(of).collect()
+}
+
+/// The normal and two tangents.
+fn frame<S: Kinematics>(normal: &S::Vector) -> [S::Vector; 3] {
+    let vector = |x: [f64; 3]| {
+        let mut made = S::Vector::default();
+        made.as_mut().copy_from_slice(&x);
+        made
+    };
+    let n = [normal.as_ref()[0], normal.as_ref()[1], normal.as_ref()[2]];
+    let [one, two] = crate::formulate::tangents(n, [0.0; 3]);
+    [*normal, vector(one), vector(two)]
+}
+
+fn contact<S: Kinematics>(
+    candidate: &CandidateOf<S>,
+    offset: f64,
+    frame: &[S::Vector; 3],
+    place: &[Option<usize>],
+) -> Contact {
+    let rows = |side: usize| {
+        frame.each_ref().map(|axis| {
+            let mut row = [0.0; 6];
+            row.copy_from_slice(wrench::<S>(&candidate.levers[side], axis, [-1.0, 1.0][side]).as_ref());
+            row
+        })
+    };
+    Contact {
+        bodies: candidate.id.bodies.map(|body| place[body]),
+        jacobian: [rows(0), rows(1)],
+        friction: candidate.friction,
+        offset,
+    }
+}
+
+/// An impulse in world axes.
+fn sum<S: Kinematics>(frame: &[S::Vector; 3], p: &[f64]) -> S::Vector {
+    let mut sum = S::Vector::default();
+    for (axis, p) in frame.iter().zip(p) {
+        sum.as_mut().iter_mut().zip(axis.as_ref()).for_each(|(sum, axis)| *sum += p * axis);
+    }
+    sum
+}
