@@ -14,6 +14,7 @@ import pytest
 import drystone as ds
 from conftest import ROOT
 from drystone import _core
+from rust_imports import circles
 
 PAGES = ["ARCHITECTURE.md", "docs/notation.md"]
 
@@ -102,6 +103,29 @@ def test_no_circle_of_imports() -> None:
     graph = {name: set(_imported(name)) - {name} for name in MODULES}
     order = list(TopologicalSorter(graph).static_order())
     assert len(order) == len(MODULES) > 100
+
+
+def test_no_circle_of_uses_in_rust() -> None:
+    """Only the parts of `cone/membership.rs` know the solver whose methods they are."""
+    found = {crate.name: circles(crate) for crate in sorted((ROOT / "crates").iterdir())}
+    assert set(found) == {"contact", "drystone", "lcp", "python"}
+    for crate, groups in found.items():
+        for group in groups:
+            assert all(name.startswith("cone::membership") for name in group), f"{crate}: {group}"
+
+
+def test_circles_in_rust_are_seen(tmp_path: Path) -> None:
+    """Through a re-export and an item named in full too; what only tests use does not count."""
+    files = {
+        "lib.rs": "mod a; mod b; mod c; pub use b::Second;",
+        "a.rs": "use crate::{Second, c::Third}; pub struct First;",
+        "b.rs": "pub struct Second(crate::a::First);",
+        "c.rs": "pub struct Third; #[cfg(test)] mod tests { use crate::a::First; }",
+    }
+    (tmp_path / "src").mkdir()
+    for name, text in files.items():
+        (tmp_path / "src" / name).write_text(text)
+    assert circles(tmp_path) == [["a", "b"]]
 
 
 def test_rooms_of_the_package_are_in_the_order_of_the_data() -> None:
