@@ -134,7 +134,7 @@ def _times(row: Row | None, column: str) -> str:
         return "-"
     if row.get("cut_off"):
         return "not finished"
-    return f"{float(format(float(row[column]), '.3g')):g} x"
+    return f"{float(format(float(row[column]), '.3g')):g}&nbsp;&times;"
 
 
 def _drift(row: Row | None) -> str:
