@@ -92,6 +92,7 @@ docs-test: docs
 # What the guide, the README and the first page show; a change of a drawing needs it.
 pictures: build
 	@$(BIN)/python website/films.py
+	@$(BIN)/python website/terminal.py
 	@$(BIN)/python website/gallery.py
 
 # Licences and sources of the Rust crates (deny.toml), where cargo-deny is installed.

@@ -146,9 +146,9 @@ class Plan:
     def hold_steps(self) -> list[tuple[str, str, int]]:
         """("hold" or "release", name, k): what hands do before block k of `order` is taken away.
 
-        A new block is held before an old one is released. A block that is taken away while it is
-        held is not released: the hand that holds it carries it off. Without an order the steps are
-        those of taking `reached` apart.
+        A new block is held before an old one is released. If the block released is the one that is
+        taken away, the hand that held it carries it off. Without an order the steps are those of
+        taking `reached` apart.
         """
         steps = [("hold", name, 0) for name in self.holds[0]] if self.holds else []
         for k, (held, then) in enumerate(zip(self.holds, (*self.holds, ())[1:], strict=True)):
