@@ -37,7 +37,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for name, svg in benchmark_results.plots().items():
         files.append(File.generated(config, f"benchmarks/{name}.svg", content=svg))
     for path in (RUSTDOC / "rust").rglob("*"):
-        if path.is_file():
+        if path.is_file() and path.suffix != ".md":  # a font's licence, which is no page
             uri = path.relative_to(RUSTDOC).as_posix()
             files.append(File(uri, str(RUSTDOC), config.site_dir, use_directory_urls=True))
     for crate in CRATES:

@@ -174,8 +174,8 @@ class Plan:
         if self.falls_next:
             text += f"; it falls if any of these is added: {shorten(self.falls_next)}"
         if self.blocked:
-            stuck = (f"{one.name} (by {shorten(one.by)})" for one in self.blocked)
-            text += f"; in the way is something of {shorten(stuck)}"
+            stuck = (f"{one.name} (blocked by {shorten(one.by)})" for one in self.blocked)
+            text += f"; cannot leave: {shorten(stuck)}"
         return text + "." + self._said_of_holds()
 
     def __repr__(self) -> str:
