@@ -80,7 +80,7 @@ def test_a_tongue_between_fixed_jaws_is_locked() -> None:
     for way, by in blocked.ways:
         assert by
         assert not passes(plan.scene, "tongue", (), way)
-    assert "tongue (by" in str(plan)
+    assert "tongue (blocked by" in str(plan)
     assert ds.plan(dovetail(True)).found
 
 
