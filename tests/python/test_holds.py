@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Callable
+from typing import Any
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -111,3 +115,36 @@ def test_the_page_says_what_hands_do() -> None:
     captions = [text for _, text in plan_recording(plan).captions]
     assert captions[0].endswith("Next: hold 3, 4 towards (-0.309, 0.951).")
     assert "Held: 3. Next: hold 2, 3 towards" in captions[1]
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_hands_bear_what_contacts_do_not(space: bool) -> None:
+    """On every structure on the way hands and ground together carry the weight."""
+    scene = ds.scenes.arch(7)
+    if space:
+        scene = scene.extruded(0.3)
+    plan = ds.plan(scene, hold=1)
+    assert plan.assembly_order == plan.order[::-1]
+    assert plan.to_dict()["assembly_order"] == list(plan.assembly_order)
+    hands = plan.hand_forces()
+    assert [tuple(of) for of in hands] == list(plan.holds)
+    assert any(hands)
+    forces = plan.view().recording.forces
+    assert forces is not None
+    fixed = [k for k, body in enumerate(scene.bodies) if body.fixed]
+    mass = {body.name: body.mass for body in scene.bodies}
+    up = scene.dimension - 1
+    for step, wrenches in enumerate(hands):
+        span = slice(*np.asarray(forces.offsets)[step : step + 2])
+        on_ground = np.isin(np.asarray(forces.bodies)[span, 0], fixed)
+        borne = np.asarray(forces.vectors)[span][on_ground, up].sum()
+        held = sum(wrench[up] for wrench in wrenches.values())
+        weight = 9.81 * sum(mass[name] for name in plan.order[step:])
+        assert borne + held == pytest.approx(weight, rel=1e-6)
+        assert all(len(wrench) == 3 * scene.dimension - 3 for wrench in wrenches.values())
+
+
+def test_the_command_line_says_what_hands_bear(cli: Callable[..., Any]) -> None:
+    ran = cli("plan", "arch:7", "--hold", "1")
+    assert "put up, in this order  1 " in ran.out
+    assert re.search(r"hands bear at most +5: [\d.]+ N, ", ran.out)

@@ -143,7 +143,6 @@ def test_a_tilt_with_loads_that_stay_or_turn() -> None:
 @pytest.mark.parametrize(
     ("wrong", "says"),
     [
-        ({"blocks": "block"}, "list of names"),
         ({"blocks": ["blok"]}, "block"),
         ({"tolerance": 0.0}, "tolerance"),
         ({"tolerance": math.nan}, "tolerance"),

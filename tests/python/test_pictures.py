@@ -69,7 +69,7 @@ def test_a_png_has_more_than_one_colour(tmp_path: Path) -> None:
 
 
 def test_another_kind_of_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match=r"\.svg or \.png"):
+    with pytest.raises(ValueError, match=r"\.svg, \.pdf or \.png"):
         ds.scenes.column(3).draw(tmp_path / "column.gif")
     assert not list(tmp_path.iterdir())
 

@@ -82,7 +82,6 @@ NAN = float("nan")
 # the thing, and what to do.
 BAD = {
     "no such dimension": (lambda s: ds.Scene(dimension=4), ["dimension", "2", "3"]),
-    "gravity that is not a vector": (lambda s: ds.Scene(gravity=9.81), ["gravity", "two numbers"]),
     "gravity that is not a number": (lambda s: ds.Scene(gravity=(0, NAN)), ["gravity"]),
     "negative friction": (lambda s: ds.Scene(friction=-1), ["friction", "-1"]),
     "center of three": (lambda s: s.add_box((0, 0, 0), (1, 1)), ["center", "two numbers"]),
@@ -100,10 +99,6 @@ BAD = {
     "the same name": (lambda s: s.add_box((0, 2), (1, 1), name="ground"), ["ground", "differ"]),
     "empty name": (lambda s: s.add_box((0, 2), (1, 1), name=""), ["name", "empty"]),
     "two corners": (lambda s: s.add_polygon([(0, 0), (1, 0)], name="x"), ["x", "at least three"]),
-    "clockwise": (
-        lambda s: s.add_polygon([(0, 2), (0, 3), (1, 2)], name="x"),
-        ["x", "clockwise"],
-    ),
     "not convex": (
         lambda s: s.add_polygon([(0, 2), (4, 2), (2, 2.5), (2, 6)], name="x"),
         ["x", "convex"],
@@ -113,7 +108,6 @@ BAD = {
     "corner of words": (lambda s: s.add_polygon([(0, 2), ("a", "b"), (1, 3)]), ["vertex"]),
     "unknown body": (lambda s: s.body("grund"), ["grund", "ground"]),
     "unknown block": (lambda s: ds.check(s, ["grund"]), ["grund", "ground"]),
-    "blocks as one string": (lambda s: ds.check(s, "ground"), ["blocks", "list"]),
     "overlap": (
         lambda s: (s.add_box((0, 0.4), (1, 1), name="x"), ds.check(s)),
         ["ground", "x", "overlap", "move them apart"],
@@ -172,7 +166,7 @@ def test_a_damaged_file_is_one_error_that_names_it(
 
 
 def test_a_missing_file_is_an_error_that_names_it(tmp_path: Path) -> None:
-    with pytest.raises((ds.SceneError, OSError), match=r"nowhere\.json"):
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.json"):
         ds.Scene.load(tmp_path / "nowhere.json")
 
 

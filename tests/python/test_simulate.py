@@ -270,7 +270,7 @@ def test_a_page_plays_the_run(run: ds.Run, cli: Cli, tmp_path: Path) -> None:
 
 def test_the_command_line_refuses(cli: Cli, tmp_path: Path) -> None:
     for arguments, message in (
-        (["col20", "-o", tmp_path / "run.txt"], "a page's in .html"),
+        (["col20", "-o", tmp_path / "run.txt"], ".html, .gif, .mp4 or .npz"),
         (["col20", "--dt", "0"], "dt is 0"),
         (["col20", "-o", tmp_path / "nowhere" / "run.npz", "--steps", "1"], "nowhere"),
     ):

@@ -268,6 +268,7 @@ def test_charts_and_scrubbing_are_those_of_the_plane(opened: Opener) -> None:
     tab = opened(Page(plan_by_hand()))
     tab.locator("#scrub").fill("3")
     says(tab, "place", "Step 3 of 5")
+    tab.click("#work summary")
     expect(tab.locator("#charts figure strong")).to_have_text("2")
 
 

@@ -19,6 +19,8 @@ export interface Recording {
     title: string;
     /** What the reader has to know, such as what was left out to bound the page's size. */
     notes: string[];
+    /** How much work it took, and what the charts show: for those who ask. */
+    details: string[];
     /** m/s^2 */
     gravity: number[];
     /** Everything below names bodies by their index here. */

@@ -35,6 +35,7 @@ export class Film {
     readonly kind: Recording["kind"];
     readonly title: string;
     readonly notes: string[];
+    readonly details: string[];
     readonly dimension: 2 | 3;
     readonly gravity: number[];
     readonly bodies: Body[];
@@ -51,6 +52,7 @@ export class Film {
         this.kind = recording.kind;
         this.title = recording.title;
         this.notes = recording.notes;
+        this.details = recording.details ?? [];
         this.dimension = recording.dimension;
         this.gravity = recording.gravity;
         this.bodies = recording.bodies;

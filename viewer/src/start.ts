@@ -24,12 +24,14 @@ export async function start(
 async function play(stage: (film: Film, canvas: HTMLCanvasElement) => Stage): Promise<void> {
     const film = await unpack(element("recording").textContent ?? "");
     element("title").textContent = film.title;
-    element("notes").replaceChildren(
-        ...film.notes.map((note) => {
-            const line = document.createElement("li");
-            line.textContent = note;
-            return line;
-        }),
-    );
+    element("notes").replaceChildren(...film.notes.map(line));
+    element("details").replaceChildren(...film.details.map(line));
+    element("work").hidden = film.details.length + film.series.length === 0;
     new Viewer(film, stage(film, element<HTMLCanvasElement>("scene")));
+}
+
+function line(text: string): HTMLLIElement {
+    const made = document.createElement("li");
+    made.textContent = text;
+    return made;
 }

@@ -63,6 +63,7 @@ export class Viewer {
             click: (at) => this.change(() => (this.selected = this.bodyAt(at))),
             moved: () => this.request(),
         });
+        element("work").addEventListener("toggle", () => this.request());
         new ResizeObserver(() => this.request()).observe(this.stage.canvas);
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () =>
             this.change(() => {

@@ -42,6 +42,7 @@ export function planRecording(): Recording {
         dimension: 2,
         title: "Two squares",
         notes: [],
+        details: [],
         gravity: [0, -9.81],
         bodies: [body("ground", -0.5, true), body("low", 0.5), body("top", 1.5)],
         frames: {

@@ -14,27 +14,23 @@ from drystone.cli.options import (
     Blocks,
     Cone,
     ConeOfCheck,
-    ConeOfLimit,
-    Engine,
     Facets,
     File,
-    Formulation,
-    Joints,
-    LoadsOfMargin,
     Picture,
-    Reuse,
-    Split,
-    StabilityTest,
-    Up,
-    WhichForces,
+    Pyramid,
 )
 from drystone.cli.scene import scene_app
+from drystone.common.choices import Joints, Split, Up
+from drystone.equilibrium.contact_force import WhichForces
+from drystone.equilibrium.margins import LoadsUnder
+from drystone.many.engines import EngineName
+from drystone.motion.modes import Formulation, Reuse
+from drystone.planning.search import StabilityTest
 
 app = typer.Typer(
     help="Does it stand, how does it move, and in which order can it be taken apart? "
     "Exact contact dynamics of stacked rigid bodies.",
     no_args_is_help=True,
-    add_completion=False,
     rich_markup_mode="rich",
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -63,10 +59,7 @@ def check(
     as_json: AsJson = False,
     output: Picture = None,
     facets: Facets = 8,
-    cone: Annotated[
-        ConeOfCheck,
-        typer.Option(help="In space: Coulomb's round cones, or pyramids within, around, or both."),
-    ] = ConeOfCheck.round,
+    cone: ConeOfCheck = "round",
     forces: Annotated[
         WhichForces | None,
         typer.Option(
@@ -77,8 +70,7 @@ def check(
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command
 
-    which = None if forces is None else forces.value
-    return command.run(scene, blocks, block, as_json, output, facets, cone.value, which)
+    return command.run(scene, blocks, block, as_json, output, facets, cone, forces)
 
 
 @app.command()
@@ -100,15 +92,12 @@ def limit(
     as_json: AsJson = False,
     output: Picture = None,
     facets: Facets = 8,
-    cone: Annotated[
-        ConeOfLimit,
-        typer.Option(help="In space: Coulomb's round cones, or pyramids within or around."),
-    ] = ConeOfLimit.round,
+    cone: Cone = "round",
 ) -> int:
     """How much of a push does it bear, and how does it collapse then?"""
     from drystone.cli import limit as command
 
-    return command.run(scene, push, gravity, blocks, block, as_json, output, facets, cone.value)
+    return command.run(scene, push, gravity, blocks, block, as_json, output, facets, cone)
 
 
 @app.command()
@@ -117,34 +106,27 @@ def margin(
     blocks: Blocks = None,
     block: Block = None,
     loads: Annotated[
-        LoadsOfMargin,
+        LoadsUnder,
         typer.Option(help="Permanent loads keep their direction, or turn as weights do."),
-    ] = LoadsOfMargin.stay,
+    ] = "stay",
     tolerance: Annotated[
         float, typer.Option(help="In space: how far the boundary may be off, of g.")
     ] = 1e-3,
     as_json: AsJson = False,
     output: Picture = None,
     facets: Facets = 8,
-    cone: Annotated[
-        ConeOfLimit,
-        typer.Option(help="In space: Coulomb's round cones, or pyramids within or around."),
-    ] = ConeOfLimit.round,
+    cone: Cone = "round",
 ) -> int:
     """Which horizontal acceleration or tilt brings it down, and how much friction does it need?"""
     from drystone.cli import margin as command
 
-    return command.run(
-        scene, blocks, block, loads.value, tolerance, as_json, output, facets, cone.value
-    )
+    return command.run(scene, blocks, block, loads, tolerance, as_json, output, facets, cone)
 
 
 @app.command()
 def plan(
     scene: File,
-    test: Annotated[
-        StabilityTest, typer.Option(help="How sub-assemblies are tested.")
-    ] = StabilityTest.reuse,
+    test: Annotated[StabilityTest, typer.Option(help="How sub-assemblies are tested.")] = "reuse",
     node_limit: Annotated[int | None, typer.Option(min=0, help="At most so many tests.")] = None,
     time_limit: Annotated[
         float | None, typer.Option(min=0.0, help="At most so many seconds.")
@@ -163,21 +145,19 @@ def plan(
         bool, typer.Option("--clear-path", help="Blocks have to leave along a straight line.")
     ] = False,
     facets: Facets = 8,
-    cone: Annotated[
-        Cone, typer.Option(help="In space: cones within or around the round ones.")
-    ] = Cone.inscribed,
+    cone: Pyramid = "inscribed",
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
         typer.Option(
             "-o",
             "--output",
-            help="Write a picture, .svg or .png, or a page to step through, .html; "
-            "the plans of a folder.",
+            help="Write a picture, .svg, .pdf or .png, a page to step through, .html, or a film, "
+            ".gif or .mp4; the plans of a folder.",
         ),
     ] = None,
     engine: Annotated[
-        Engine | None, typer.Option(help="For a folder: where its scenes are planned.")
+        EngineName | None, typer.Option(help="For a folder: where its scenes are planned.")
     ] = None,
     workers: Annotated[
         int | None, typer.Option(min=1, help="For a folder: so many at a time; one a core.")
@@ -196,13 +176,13 @@ def plan(
 
         if threads is not None:
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
-        where = (engine or Engine.threads).value
+        where = engine or "threads"
         limits = (node_limit, time_limit)
         return plan_many.run(
             Path(scene),
             where,
             output,
-            test.value,
+            test,
             *limits,
             workers,
             address,
@@ -217,14 +197,14 @@ def plan(
     limits = (node_limit, time_limit)
     return command.run(
         scene,
-        test.value,
+        test,
         *limits,
         shortcuts,
         threads,
         hold,
         clear_path,
         facets,
-        cone.value,
+        cone,
         as_json,
         output,
     )
@@ -237,25 +217,28 @@ def simulate(
     steps: Annotated[int, typer.Option(min=0, help="So many steps.")] = 1200,
     reuse: Annotated[
         Reuse, typer.Option(help="What a step takes over from the one before.")
-    ] = Reuse.full,
+    ] = "full",
     restitution: Annotated[
         float, typer.Option(help="Share of the speed with which colliding blocks part, 0 to 1.")
     ] = 0.0,
     formulation: Annotated[
         Formulation,
         typer.Option(help="Impulses and velocities, or forces and accelerations (Baraff's)."),
-    ] = Formulation.velocity,
+    ] = "velocity",
     facets: Facets = 8,
-    cone: Annotated[
-        Cone, typer.Option(help="In space: cones within or around the round ones.")
-    ] = Cone.inscribed,
+    cone: Pyramid = "inscribed",
     forces: Annotated[
         bool, typer.Option("--forces", help="Record the contact forces of every step.")
     ] = False,
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
-        typer.Option("-o", "--output", help="Write the run, .npz, or a page that plays it, .html."),
+        typer.Option(
+            "-o",
+            "--output",
+            help="Write the run, .npz, a page that plays it, .html, a film, .gif or .mp4, or a "
+            "picture of its end, .svg, .pdf or .png.",
+        ),
     ] = None,
 ) -> int:
     """How does it move? From rest, step by step, with exact contact and friction."""
@@ -265,11 +248,11 @@ def simulate(
         scene,
         dt,
         steps,
-        reuse.value,
+        reuse,
         restitution,
-        formulation.value,
+        formulation,
         facets,
-        cone.value,
+        cone,
         forces,
         as_json,
         output,
@@ -287,12 +270,13 @@ def import_(
         ),
     ],
     output: Annotated[
-        Path | None, typer.Option("-o", "--output", help="The scene file to write.")
+        Path | None,
+        typer.Option("-o", "--output", help="The scene file to write; - for standard output."),
     ] = None,
     scale: Annotated[
         float, typer.Option(help="Metres in the file's unit of length: 0.001 for millimetres.")
     ] = 1.0,
-    up: Annotated[Up, typer.Option(help="The axis that points up in the file.")] = Up.z,
+    up: Annotated[Up, typer.Option(help="The axis that points up in the file.")] = "z",
     friction: Annotated[float, typer.Option(help="For bodies without their own.")] = 0.5,
     density: Annotated[
         float | None, typer.Option(help="kg/m³, instead of the file's; 1000 if it has none.")
@@ -342,11 +326,10 @@ def import_(
     hull: Annotated[bool, typer.Option("--hull", help="Take the convex hulls of meshes.")] = False,
     joints: Annotated[
         Joints,
-        LoadsOfMargin,
         typer.Option(
             help="Joints of MJCF and URDF that turn or slide: an error, or welded (fixed)."
         ),
-    ] = Joints.error,
+    ] = "error",
     as_json: AsJson = False,
 ) -> int:
     """Make a scene of another tool's assembly, and say what was taken and what was left out."""
@@ -357,7 +340,7 @@ def import_(
         output,
         as_json,
         scale=scale,
-        up=up.value,
+        up=up,
         friction=friction,
         density=density,
         gravity=gravity,
@@ -367,9 +350,9 @@ def import_(
         tolerance=tolerance,
         max_pieces=max_pieces,
         simplify=simplify,
-        split=None if split is None else split.value,
+        split=split,
         hull=hull,
-        joints=joints.value,
+        joints=joints,
         surface=surface,
     )
 

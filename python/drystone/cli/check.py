@@ -8,10 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import chosen, draw, load_scene, picture_path
+from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
 from drystone.cli.output import console
-from drystone.common.text import shown
-from drystone.equilibrium.contact_force import ANY, CANONICAL
+from drystone.common.cones import ConeOfCheck
+from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
 from drystone.equilibrium.verdict import Verdict, check
 from drystone.report.tables import verdict_table
 
@@ -27,8 +27,8 @@ def run(
     as_json: bool,
     output: Path | None,
     facets: int,
-    cone: str,
-    forces: str | None,
+    cone: ConeOfCheck,
+    forces: WhichForces | None,
 ) -> int:
     """0 if it stands, 1 if not, 2 if there is no verdict."""
     picture = picture_path(output)
@@ -56,4 +56,4 @@ def _print(verdict: Verdict, picture: Path | None) -> None:
     if verdict.stable and verdict.forces.kind == ANY:
         out.print("These forces are some of many; --forces canonical computes those of least norm.")
     if picture is not None:
-        out.print(f"picture: {shown(str(picture))}", soft_wrap=True)
+        out.print(said_of(picture), soft_wrap=True)

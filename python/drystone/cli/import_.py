@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import listed, reporting_files
+from drystone.cli.inputs import STANDARD, listed, reporting_files
 from drystone.cli.output import console
 from drystone.common.text import MOST_ROWS, shown
 from drystone.imports import Imported, load
@@ -39,18 +39,24 @@ def run(
             tolerance=_tolerance(tolerance),
             **options,
         )
-        if output is not None:
+        if output is not None and str(output) != STANDARD:
             imported.scene.save(output)
-    if as_json:
+    if output is not None and str(output) == STANDARD:
+        if as_json:
+            raise InputError("--json and -o - both want standard output: give one of them")
+        print(imported.scene.to_json())
+    elif as_json:
         print(json.dumps(imported.to_dict(), indent=2))
     else:
         _print(imported, output)
     return 0
 
 
-def _tolerance(text: str | None) -> float | str | None:
+def _tolerance(text: str | None) -> float | Literal["auto"] | None:
+    if text is None or text == "auto":
+        return None if text is None else "auto"
     try:
-        return text if text in (None, "auto") else float(str(text))
+        return float(text)
     except ValueError:
         raise InputError(f"--tolerance must be a length in metres or auto, not {text!r}") from None
 

@@ -3,35 +3,55 @@
 from __future__ import annotations
 
 import inspect
+import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from drystone.cli.errors import InputError
 from drystone.common.extras import require
+from drystone.common.text import shown
 
 if TYPE_CHECKING:
     from drystone.scene import Scene
 
-PICTURES = (".svg", ".png")
+
+STANDARD = "-"
+"""A file's name that stands for standard input or output."""
 
 
 def load_scene(text: str) -> Scene:
-    """The scene in the file `text`, or the built-in one that `text` names."""
-    from drystone import scenes
+    """The scene in the file `text`, on standard input, or the built-in one that `text` names."""
+    from drystone import _core
     from drystone.scene import Scene
 
+    if text == STANDARD:
+        return Scene._of(_core.Scene.from_json(_standard_input(), "standard input"))
     name, _, parameters = text.partition(":")
-    builder = getattr(scenes, python_name(name), None)
+    builder = builder_of(name)
     if not Path(text).exists():
-        if python_name(name) in scenes.__all__ and builder is not None:
-            return built(builder, parameters)
+        if builder is not None:
+            return builder(**parameters_of(builder, parameters))
         if Path(name).name == name and not Path(name).suffix:
             raise _neither(text, python_name(name))
     with reporting_files():
         return Scene.load(text)
+
+
+def _standard_input() -> str:
+    try:
+        return sys.stdin.buffer.read().decode()
+    except UnicodeDecodeError as error:
+        raise InputError(f"standard input is no text: {error}") from None
+
+
+def builder_of(name: str) -> Callable[..., Scene] | None:
+    """The function of `drystone.scenes` that has a name; None if there is none."""
+    from drystone import scenes
+
+    return getattr(scenes, python_name(name)) if python_name(name) in scenes.__all__ else None
 
 
 def _neither(text: str, name: str) -> InputError:
@@ -45,11 +65,11 @@ def _neither(text: str, name: str) -> InputError:
     return InputError(f"{text}: no such file")
 
 
-def built(builder: Callable[..., Scene], text: str) -> Scene:
-    """A built-in scene from parameters like "50,friction=0.5": in order, or by name."""
+def parameters_of(builder: Callable[..., Scene], text: str) -> dict[str, int | float]:
+    """Parameters of a built-in scene from text like "50,friction=0.5": in order, or by name."""
     signature = inspect.signature(builder, eval_str=True)
     names = list(signature.parameters)
-    given: dict[str, Any] = {}
+    given: dict[str, int | float] = {}
     for place, part in enumerate(filter(None, text.split(","))):
         key, equals, value = part.partition("=")
         if not equals:
@@ -59,7 +79,7 @@ def built(builder: Callable[..., Scene], text: str) -> Scene:
                 f"{builder.__name__} has no parameter {key or part!r}: it takes {', '.join(names)}"
             )
         given[key] = _number(value, signature.parameters[key].annotation, builder.__name__, key)
-    return builder(**given)
+    return given
 
 
 def listed(text: str | None) -> list[str]:
@@ -90,21 +110,37 @@ def python_name(name: str) -> str:
     return name.replace("-", "_")
 
 
+PICTURES = (".svg", ".pdf", ".png")
+FILMS = (".gif", ".mp4")
+KINDS = {
+    **dict.fromkeys(PICTURES, "picture"),
+    **dict.fromkeys(FILMS, "film"),
+    ".html": "page",
+    ".npz": "run",
+}
+"""What a file is, by the ending of its name."""
+
+
 def picture_path(path: Path | None, *others: str) -> Path | None:
-    """`path`, refused before any work if it ends in none of .svg, .png and `others`, or if what
-    draws it is not installed."""
+    """`path`, refused before any work if it ends neither as a picture's nor in one of `others`, or
+    if what draws it is not installed."""
     endings = (*PICTURES, *others)
     if path is not None and path.suffix.lower() not in endings:
         known = f"{', '.join(endings[:-1])} or {endings[-1]}"
-        raise InputError(f"{path}: a picture's name ends in {known}")
-    if path is not None and path.suffix.lower() in PICTURES:
+        raise InputError(f"{path}: give it a name that ends in {known}")
+    if path is not None and path.suffix.lower() in (*PICTURES, *FILMS):
         require("pictures", "pictures")
     return path
 
 
-def page_path(path: Path | None) -> bool:
-    """Whether a page is to be written, and not a picture."""
-    return path is not None and path.suffix.lower() == ".html"
+def kind_of(path: Path) -> str:
+    """What is written to a file."""
+    return KINDS[path.suffix.lower()]
+
+
+def said_of(path: Path) -> str:
+    """The line that says where it is."""
+    return f"{kind_of(path)}: {shown(str(path))}"
 
 
 @contextmanager
@@ -117,9 +153,9 @@ def reporting_files() -> Iterator[None]:
         raise InputError(f"{where}{error.strerror or error}") from None
 
 
-def _number(text: str, kind: type, scene: str, parameter: str) -> Any:
+def _number(text: str, kind: type, scene: str, parameter: str) -> int | float:
     try:
-        return kind(text)
+        return int(text) if kind is int else float(text)
     except ValueError:
         wanted = "a whole number" if kind is int else "a number"
         raise InputError(f"{scene}: {parameter} must be {wanted}, not {text!r}") from None

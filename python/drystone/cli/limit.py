@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import chosen, draw, load_scene, picture_path
+from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
 from drystone.cli.output import console
+from drystone.common.cones import Cone
 from drystone.common.json_text import write_json
-from drystone.common.text import shown
 from drystone.equilibrium.limits import Limit, limit
 from drystone.report.tables import motion_table
 
@@ -28,7 +28,7 @@ def run(
     as_json: bool,
     output: Path | None,
     facets: int,
-    cone: str,
+    cone: Cone,
 ) -> int:
     """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
     picture = picture_path(output)
@@ -74,4 +74,4 @@ def _print(out: Console, found: Limit, picture: Path | None) -> None:
     if found.mechanism:
         out.print(motion_table(found.mechanism, found.scene.dimension))
     if picture is not None:
-        out.print(f"picture: {shown(str(picture))}", soft_wrap=True)
+        out.print(said_of(picture), soft_wrap=True)

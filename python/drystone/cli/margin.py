@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import chosen, draw, load_scene, picture_path
+from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
 from drystone.cli.output import console
+from drystone.common.cones import Cone
 from drystone.common.json_text import write_json
-from drystone.common.text import shown
-from drystone.equilibrium.margins import Margin, margin
+from drystone.equilibrium.margins import LoadsUnder, Margin, margin
 from drystone.report.tables import motion_table
 
 
@@ -19,12 +19,12 @@ def run(
     scene_name: str,
     blocks: str | None,
     block: Sequence[str] | None,
-    loads: str,
+    loads: LoadsUnder,
     tolerance: float,
     as_json: bool,
     output: Path | None,
     facets: int,
-    cone: str,
+    cone: Cone,
 ) -> int:
     """0 if it has a margin, 1 if it falls, 2 if there is no answer."""
     picture = picture_path(output)
@@ -51,4 +51,4 @@ def _print(found: Margin, picture: Path | None) -> None:
     if found.mechanism:
         out.print(motion_table(found.mechanism, found.scene.dimension))
     if picture is not None:
-        out.print(f"picture: {shown(str(picture))}", soft_wrap=True)
+        out.print(said_of(picture), soft_wrap=True)

@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from itertools import groupby
 from pathlib import Path
 
-from drystone.cli.inputs import load_scene, page_path, picture_path, reporting_files
+from drystone.cli.inputs import (
+    FILMS,
+    kind_of,
+    load_scene,
+    picture_path,
+    reporting_files,
+    said_of,
+)
 from drystone.cli.output import console, facts, names
+from drystone.common.cones import Pyramid
 from drystone.common.progress import ForcesProgress, PlanProgress
 from drystone.common.text import shown
+from drystone.common.units import scale_of
 from drystone.planning.answer import Plan
-from drystone.planning.search import plan
+from drystone.planning.search import StabilityTest, plan
+
+MOST_POINTS = 200_000
+"""What hands bear is not computed of plans with more contact points, those of all steps together:
+it takes longer than a second."""
 
 
 def run(
     scene_name: str,
-    test: str,
+    test: StabilityTest,
     node_limit: int | None,
     time_limit: float | None,
     shortcuts: bool,
@@ -24,12 +38,12 @@ def run(
     hold: int,
     clear_path: bool,
     facets: int,
-    cone: str,
+    cone: Pyramid,
     as_json: bool,
     output: Path | None,
 ) -> int:
     """0 if an order was found, 1 if not."""
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, ".html", *FILMS)
     scene = load_scene(scene_name)
     with PlanProgress() as progress:
         found = plan(
@@ -56,8 +70,8 @@ def run(
 
 
 def _write(found: Plan, path: Path) -> None:
-    if not page_path(path):
-        found.draw(path)
+    if kind_of(path) != "page":
+        found.save(path)
         return
     with ForcesProgress() as progress:
         page = found.view(progress)
@@ -70,6 +84,7 @@ def _print(found: Plan, picture: Path | None) -> None:
     told = facts()
     if found.found:
         told.add_row("remove, in this order", names(found.order))
+        told.add_row("put up, in this order", names(found.assembly_order))
     else:
         told.add_row("largest that stands", names(found.reached) or "nothing")
         told.add_row("falls with any of", names(found.falls_next) or "nothing tried")
@@ -77,6 +92,8 @@ def _print(found: Plan, picture: Path | None) -> None:
             told.add_row("the whole assembly", str(found.whole))
     if any(found.holds):
         told.add_row("hold and release", _hold_steps(found))
+        if len(found.scene.contacts) * len(found.order or found.reached) <= MOST_POINTS:
+            told.add_row("hands bear at most", _hands(found))
     if found.directions:
         told.add_row("leaving towards", _directions(found))
     for one in found.blocked:
@@ -84,8 +101,7 @@ def _print(found: Plan, picture: Path | None) -> None:
     told.add_row("stability test", found.test)
     out.print(told)
     if picture is not None:
-        what = "page" if page_path(picture) else "picture"
-        out.print(f"{what}: {shown(str(picture))}", soft_wrap=True)
+        out.print(said_of(picture), soft_wrap=True)
 
 
 def _hold_steps(found: Plan) -> str:
@@ -95,6 +111,17 @@ def _hold_steps(found: Plan) -> str:
     for action, name, k in found.hold_steps:
         before.setdefault(k, []).append(f"{action} {shown(name)}")
     return "; ".join(f"before {shown(order[k])}: {', '.join(steps)}" for k, steps in before.items())
+
+
+def _hands(found: Plan) -> str:
+    """For each block that is held the largest force of the hand on it."""
+    most: dict[str, float] = {}
+    for wrenches in found.hand_forces():
+        for name, wrench in wrenches.items():
+            force = math.hypot(*wrench[: found.scene.dimension].tolist())
+            most[name] = max(most.get(name, 0.0), force)
+    size, unit = scale_of(most.values(), "N")
+    return ", ".join(f"{shown(name)}: {force / size:.3g} {unit}" for name, force in most.items())
 
 
 def _directions(found: Plan) -> str:

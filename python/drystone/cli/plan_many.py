@@ -13,7 +13,9 @@ from drystone.cli.inputs import reporting_files
 from drystone.cli.output import console
 from drystone.common.text import MOST_ROWS, shorten, shown
 from drystone.many import ManyPlans, plan_many
+from drystone.many.engines import EngineName
 from drystone.many.progress import ManyProgress
+from drystone.planning.search import StabilityTest
 from drystone.report.tables import cut, table
 
 if TYPE_CHECKING:
@@ -24,9 +26,9 @@ WHY = "why there is no order"
 
 def run(
     folder: Path,
-    engine: str,
+    engine: EngineName,
     output: Path | None,
-    test: str,
+    test: StabilityTest,
     node_limit: int | None,
     time_limit: float | None,
     workers: int | None,

@@ -11,18 +11,33 @@ import typer
 from typer.core import TyperGroup
 
 from drystone import _core, scenes
-from drystone.cli.inputs import load_scene, picture_path, reporting_files
+from drystone.cli.inputs import (
+    PICTURES,
+    STANDARD,
+    builder_of,
+    load_scene,
+    parameters_of,
+    picture_path,
+    python_name,
+    reporting_files,
+    said_of,
+)
+from drystone.cli.options import File
 from drystone.scene import Scene
-
-PICTURES = (".svg", ".png", ".html")
 
 
 class SceneGroup(TyperGroup):
-    """`drystone scene FILE` is `drystone scene draw FILE`."""
+    """`drystone scene FILE` is `drystone scene draw FILE`, and `wall:6` is `wall --rows 6`."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        """A word with a suffix is a file."""
-        if self.get_command(ctx, args[0]) is None and Path(args[0]).suffix:
+        """A word with a suffix is a file, one with a colon a scene with its parameters."""
+        name, colon, parameters = args[0].partition(":")
+        builder = builder_of(name) if colon else None
+        if builder is not None:
+            given = parameters_of(builder, parameters)
+            options = [f"--{key.replace('_', '-')}={value}" for key, value in given.items()]
+            args = [python_name(name), *options, *args[1:]]
+        elif self.get_command(ctx, args[0]) is None and (Path(args[0]).suffix or args[0] == "-"):
             args = ["draw", *args]
         return super().resolve_command(ctx, args)
 
@@ -38,8 +53,8 @@ Output = Annotated[
     typer.Option(
         "-o",
         "--output",
-        help="The scene file to write, or a picture (.svg, .png) or page (.html) of it; "
-        "standard output without it.",
+        help="The scene file to write, or a picture (.svg, .pdf, .png) or page (.html) of it; "
+        "without it, or with [bold]-[/], standard output.",
     ),
 ]
 
@@ -60,15 +75,17 @@ def root(
 
 @scene_app.command("draw")
 def draw(
-    scene: Annotated[str, typer.Argument(help="A scene file, or a built-in scene.")],
-    output: Annotated[Path, typer.Option("-o", "--output", help="A .svg, .png or .html to write.")],
+    scene: File,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="A .svg, .pdf, .png or .html to write.")
+    ],
 ) -> int:
     """Draw a scene, with blocks that overlap in red; `draw` may be left out before a file."""
     picture = picture_path(output, ".html")
     given = load_scene(scene)
     with reporting_files():
         given.draw(picture or output)
-    print(f"picture: {output}")
+    print(said_of(output))
     return 0
 
 
@@ -78,11 +95,11 @@ def _command(builder: Callable[..., Scene], helps: dict[str, str]) -> Callable[.
     def write(**options: Any) -> int:
         output: Path | None = options.pop("output")
         scene = builder(**options)
-        if output is None:
+        if output is None or str(output) == STANDARD:
             print(scene.to_json())
             return 0
         with reporting_files():
-            if output.suffix.lower() in PICTURES:
+            if output.suffix.lower() in (*PICTURES, ".html"):
                 scene.draw(output)
             else:
                 scene.save(output)

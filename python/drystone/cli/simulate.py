@@ -6,11 +6,20 @@ import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drystone.cli.errors import INTERRUPTED, InputError
-from drystone.cli.inputs import load_scene, page_path, reporting_files
+from drystone.cli.errors import INTERRUPTED
+from drystone.cli.inputs import (
+    FILMS,
+    kind_of,
+    load_scene,
+    picture_path,
+    reporting_files,
+    said_of,
+)
 from drystone.cli.output import console, facts
+from drystone.common.cones import Pyramid
 from drystone.common.progress import RunProgress
-from drystone.common.text import shown
+from drystone.common.units import quantity
+from drystone.motion.modes import Formulation, Reuse
 from drystone.motion.run import Run
 from drystone.motion.simulation import simulate
 
@@ -22,19 +31,18 @@ def run(
     scene_name: str,
     dt: float,
     steps: int,
-    reuse: str,
+    reuse: Reuse,
     restitution: float,
-    formulation: str,
+    formulation: Formulation,
     facets: int,
-    cone: str,
+    cone: Pyramid,
     forces: bool,
     as_json: bool,
     output: Path | None,
 ) -> int:
     """0 if every step was made, 1 if one could not be, 130 after Ctrl-C."""
-    if output is not None and output.suffix.lower() != ".npz" and not page_path(output):
-        raise InputError(f"{output}: a run's name ends in .npz, a page's in .html")
-    forces = forces or page_path(output)
+    output = picture_path(output, ".html", *FILMS, ".npz")
+    forces = forces or (output is not None and kind_of(output) != "run")
     scene = load_scene(scene_name)
     with RunProgress() as progress:
         made = simulate(
@@ -51,7 +59,7 @@ def run(
         )
     if output is not None:
         with reporting_files():
-            (made.view() if page_path(output) else made).save(output)
+            made.save(output)
     if as_json:
         print(json.dumps(made.to_dict(), indent=2))
     else:
@@ -65,13 +73,14 @@ def _print(made: Run, output: Path | None) -> None:
     if made.steps:
         out.print(_facts(made))
     if output is not None:
-        out.print(f"{'page' if page_path(output) else 'run'}: {shown(str(output))}", soft_wrap=True)
+        out.print(said_of(output), soft_wrap=True)
 
 
 def _facts(made: Run) -> Table:
     told = facts()
-    mean = 1e6 * made.step_seconds.mean()
-    told.add_row("a step", f"{mean:.3g} µs, {1e6 * made.solve_seconds.mean():.3g} µs in solves")
+    step = quantity(float(made.step_seconds.mean()), "s")
+    solving = quantity(float(made.solve_seconds.mean()), "s")
+    told.add_row("a step", f"{step}, {solving} in solves")
     told.add_row(
         "pivots",
         f"{made.pivots.sum()} ({made.major_cycles.sum()} major, {made.minor_cycles.sum()} minor) "
@@ -79,7 +88,7 @@ def _facts(made: Run) -> Table:
     )
     settled = int(made.motionless.all(axis=1).sum())
     told.add_row("steps in which nothing moved", f"{settled} of {made.steps}")
-    told.add_row("deepest overlap", f"{made.penetration.max():.2g} m")
+    told.add_row("deepest overlap", quantity(float(made.penetration.max()), "m", 2))
     told.add_row("largest error of friction", f"{made.friction_error.max():.2g} m/s")
     told.add_row("steps not exact", f"{made.not_exact} of {made.steps}")
     if made.formulation != "velocity":

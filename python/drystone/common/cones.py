@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final, Literal, TypeAlias, get_args
+
 from drystone import _core
 
 FACETS = 8
@@ -10,10 +12,18 @@ FACETS = 8
 MOST_FACETS = 1000
 """Edges of a friction cone at most: they leave out 5e-6 of the coefficient, and cost memory."""
 
-ROUND = "round"
-"""Coulomb's cone itself, which `check` knows."""
+Pyramid: TypeAlias = Literal["inscribed", "circumscribed"]
+"""On which side of Coulomb's cone the pyramids lie."""
 
-CONES = ("inscribed", "circumscribed", "both")
+Cone: TypeAlias = Literal["round", "inscribed", "circumscribed"]
+"""Coulomb's cone itself, or pyramids: what `limit` and `margin` know."""
+
+ConeOfCheck: TypeAlias = Literal["round", "inscribed", "circumscribed", "both"]
+"""What `check` knows: pyramids on both sides too."""
+
+ROUND: Final = "round"
+INSCRIBED: Final = "inscribed"
+CONES = get_args(ConeOfCheck)[1:]
 """Pyramids on either side of Coulomb's cone; `check` alone knows both at once."""
 
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import json
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TextIO
+from os import PathLike
+from pathlib import Path
+from typing import Protocol, TextIO
+
+from drystone.common.files import write_whole
 
 
 class Rows:
@@ -12,6 +17,23 @@ class Rows:
 
     def __init__(self, texts: Iterable[str]) -> None:
         self.texts = texts
+
+
+class Written(Protocol):
+    """What writes itself as JSON."""
+
+    def write_json(self, file: TextIO) -> None: ...
+
+
+def save_json(answer: Written, path: str | PathLike[str]) -> bool:
+    """Write an answer to a file, whole or not at all, if its name ends in .json; say whether."""
+    target = Path(path)
+    if target.suffix.lower() != ".json":
+        return False
+    text = io.StringIO()
+    answer.write_json(text)
+    write_whole(target, text.getvalue().encode())
+    return True
 
 
 def write_json(value: object, file: TextIO) -> None:

@@ -52,12 +52,24 @@ class Page(Protocol):
     ) -> list[Path]:
         """Draw frames (all by default) as pictures; return their paths."""
 
+    def show(self) -> None:
+        """Show the page: in a notebook, or from a script in the browser."""
+
 
 figure: Later[Figure] = Later()
 """Of a scene or an answer: its picture."""
 
 save_figure: Later[None] = Later()
-"""Of a figure and a path: writes the picture."""
+"""Of a figure, a path and dots per inch: writes the picture."""
+
+draw_on: Later[None] = Later()
+"""Of a scene or an answer, and axes: draws its picture in these."""
+
+show: Later[None] = Later()
+"""Of a scene, an answer or a page: shows it, in a notebook or in the browser."""
+
+film: Later[None] = Later()
+"""Of a plan or a run, a path and dots per inch: writes its frames as a film."""
 
 svg_of: Later[str] = Later()
 """Of a figure: the text of an SVG image."""

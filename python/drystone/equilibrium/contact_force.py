@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, overload
 
 from drystone import _core
 
@@ -49,11 +49,13 @@ class ContactForce:
         )
 
 
-CANONICAL, ANY = "canonical", "any"
+WhichForces: TypeAlias = Literal["canonical", "any"]
+CANONICAL: Final = "canonical"
+ANY: Final = "any"
 """Which contact forces: those of least norm, or those that a verdict was found with."""
 
 
-def which_forces(forces: str) -> str:
+def which_forces(forces: WhichForces) -> WhichForces:
     """ValueError unless it is "canonical" or "any"."""
     if forces not in (CANONICAL, ANY):
         raise ValueError(f'unknown forces {forces!r}: give "{CANONICAL}" or "{ANY}"')

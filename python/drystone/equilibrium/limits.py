@@ -6,15 +6,17 @@ import copy
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 from drystone import _core
-from drystone.common import later
-from drystone.common.cones import CONES, FACETS, ROUND, core_cones
-from drystone.common.numbers import vector
+from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
+from drystone.common.drawn import DPI, Drawn
+from drystone.common.json_text import save_json, write_json
+from drystone.common.numbers import names_of, vector
 from drystone.common.text import counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
+from drystone.scene.scene import scene_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -68,7 +70,7 @@ class LimitEnd:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Limit:
+class Limit(Drawn):
     """The answer of `limit`."""
 
     status: str
@@ -151,12 +153,14 @@ class Limit:
             "seconds": self.seconds,
         }
 
-    def draw(self, path: str | PathLike[str]) -> None:
-        """Write a picture of the forces and of the collapse at the greatest factor (.svg, .png)."""
-        later.save_figure(later.figure(self), path)
+    def write_json(self, file: TextIO) -> None:
+        """Write `to_dict` as JSON to an open text file."""
+        write_json(self.to_dict(), file)
 
-    def _repr_svg_(self) -> str | None:
-        return later.svg_if_possible(self)
+    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
+        """Write `to_dict` (.json), or the picture of the forces and the collapse."""
+        if not save_json(self, path):
+            self.draw(path, dpi=dpi)
 
 
 def limit(
@@ -166,7 +170,7 @@ def limit(
     blocks: Iterable[str] | None = None,
     *,
     facets: int = FACETS,
-    cone: str = ROUND,
+    cone: Cone = ROUND,
 ) -> Limit:
     """How much of a push does a structure bear, and how does it collapse beyond?
 
@@ -194,11 +198,9 @@ def limit(
     >>> round(lim.factor, 9), len(lim.mechanism)
     (0.1, 10)
     """
-    if isinstance(blocks, str):
-        raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
-    names = None if blocks is None else list(blocks)
-    cones = core_cones(facets, CONES[0] if cone == ROUND else cone)
-    scene = copy.copy(scene)
+    names = names_of(blocks)
+    cones = core_cones(facets, INSCRIBED if cone == ROUND else cone)
+    scene = copy.copy(scene_of(scene))
     forces, pull = core_push(scene, push, gravity)
     core = _core.limit(scene._core, forces, pull, names, cones, cone == ROUND)
     return limit_of(core, scene, movable(scene, names), forces, pull)
@@ -218,7 +220,7 @@ def core_push(
     if push is None and gravity is None:
         raise _core.SceneError("nothing pushes: give push= (forces on bodies) or gravity=")
     if push is not None and not isinstance(push, Mapping):
-        raise _core.SceneError(
+        raise TypeError(
             f"push must be a dict of forces by body, as {{'7': (100, 0)}}, not {push!r:.80}"
         )
     n = scene.dimension

@@ -5,15 +5,17 @@ from __future__ import annotations
 import copy
 from collections.abc import Iterable
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias
 
 from drystone import _core
-from drystone.common import later
-from drystone.common.cones import CONES, FACETS, ROUND, core_cones
-from drystone.common.numbers import number
+from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
+from drystone.common.drawn import DPI, Drawn
+from drystone.common.json_text import save_json, write_json
+from drystone.common.numbers import names_of, number
 from drystone.common.text import counted, shorten
 from drystone.equilibrium.limits import LimitEnd, finite, movable
 from drystone.scene import Scene
+from drystone.scene.scene import scene_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,14 +23,16 @@ if TYPE_CHECKING:
 
     from drystone.equilibrium.contact_force import ContactForces
 
-STAY, TURN = "stay", "turn"
+LoadsUnder: TypeAlias = Literal["stay", "turn"]
+STAY: Final = "stay"
+TURN: Final = "turn"
 """What permanent loads do while a structure is accelerated or tilted."""
 
 TOLERANCE = 1e-3
 """How far the boundary may be off, in g, without a choice."""
 
 
-class Margin:
+class Margin(Drawn):
     """The answer of `margin`."""
 
     __slots__ = (
@@ -145,19 +149,24 @@ class Margin:
             "questions": self.questions,
         }
 
-    def draw(self, path: str | PathLike[str]) -> None:
-        """Write a picture of the collapse (.svg or .png)."""
-        later.save_figure(later.figure(self), path)
+    def write_json(self, file: TextIO) -> None:
+        """Write `to_dict` as JSON to an open text file."""
+        write_json(self.to_dict(), file)
+
+    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
+        """Write `to_dict` (.json), or the picture of the collapse."""
+        if not save_json(self, path):
+            self.draw(path, dpi=dpi)
 
 
 def margin(
     scene: Scene,
     blocks: Iterable[str] | None = None,
     *,
-    loads: str = STAY,
+    loads: LoadsUnder = STAY,
     tolerance: float = TOLERANCE,
     facets: int = FACETS,
-    cone: str = ROUND,
+    cone: Cone = ROUND,
 ) -> Margin:
     """How far is a structure from falling?
 
@@ -179,16 +188,14 @@ def margin(
     >>> round(m.acceleration, 6), round(m.tilt, 6), m.friction
     (0.1, 0.099669, 0.0)
     """
-    if isinstance(blocks, str):
-        raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
     if loads not in (STAY, TURN):
         raise ValueError(f'unknown loads {loads!r}: give "{STAY}" or "{TURN}"')
     off = number(tolerance, "tolerance")
     if not 1e-9 <= off <= 1.0:
         raise _core.SceneError(f"tolerance is {off}: it must be from 1e-9 to 1 (of g)")
-    names = None if blocks is None else list(blocks)
-    cones = core_cones(facets, CONES[0] if cone == ROUND else cone)
-    scene = copy.copy(scene)
+    names = names_of(blocks)
+    cones = core_cones(facets, INSCRIBED if cone == ROUND else cone)
+    scene = copy.copy(scene_of(scene))
     round_cones = cone == ROUND
     core = _core.margin(scene._core, names, loads == TURN, off, cones, round_cones)
     return Margin(core, movable(scene, names), scene, (names, cones, round_cones))

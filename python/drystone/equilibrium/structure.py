@@ -7,17 +7,20 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.common.cones import CONES, FACETS, core_cones
-from drystone.equilibrium.contact_force import CANONICAL, which_forces
+from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
+from drystone.common.drawn import Drawn
+from drystone.common.numbers import name_of
+from drystone.equilibrium.contact_force import CANONICAL, WhichForces, which_forces
 from drystone.equilibrium.limits import Limit, Push, core_push, limit_of
 from drystone.equilibrium.verdict import Verdict
 from drystone.scene import Scene
+from drystone.scene.scene import scene_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
 
-class Structure:
+class Structure(Drawn):
     """A scene of which some blocks are there and others not: does it stand now?
 
     Blocks are added and removed in any order. Between two questions the contacts of the complete
@@ -49,9 +52,9 @@ class Structure:
         blocks: Iterable[str] = (),
         *,
         facets: int = FACETS,
-        cone: str = CONES[0],
+        cone: Pyramid = INSCRIBED,
     ) -> None:
-        self._scene = copy.copy(scene)
+        self._scene = copy.copy(scene_of(scene))
         self._cones = core_cones(facets, cone)
         self._hold(_core.Structure(scene._core, self._cones))
         self.add(*blocks)
@@ -85,7 +88,7 @@ class Structure:
         """
         return self._core.step([], [])[0]
 
-    def check(self, *, forces: str = CANONICAL) -> Verdict:
+    def check(self, *, forces: WhichForces = CANONICAL) -> Verdict:
         """The verdict with all contact forces, or how it begins to fall; as `check` gives it."""
         kind = which_forces(forces)
         return Verdict._of(self._core.check(), copy.copy(self._scene), self._cones[1], kind)
@@ -140,7 +143,7 @@ class Structure:
         return [self._block(name) for name in blocks]
 
     def _block(self, name: str) -> int:
-        block = self._index.get(name)
+        block = self._index.get(name_of(name))
         if block is None:
             body = self._scene.body(name)  # raises if there is none
             raise _core.SceneError(f"body {body.name!r} is fixed: it is always there")

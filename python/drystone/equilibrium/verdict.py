@@ -7,24 +7,36 @@ import json
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, Literal, TextIO, TypeAlias
 
 from drystone import _core
 from drystone.common import later
-from drystone.common.cones import CONES, FACETS, ROUND, core_cones
-from drystone.common.json_text import Rows, write_json
+from drystone.common.cones import CONES, FACETS, ROUND, ConeOfCheck, core_cones
+from drystone.common.drawn import DPI, Drawn
+from drystone.common.json_text import Rows, save_json, write_json
+from drystone.common.numbers import names_of
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.bearing import Explanation, Unsupported
-from drystone.equilibrium.contact_force import CANONICAL, ContactForce, ContactForces, which_forces
+from drystone.equilibrium.contact_force import (
+    CANONICAL,
+    ContactForce,
+    ContactForces,
+    WhichForces,
+    which_forces,
+)
 from drystone.scene import NearMiss, Scene
+from drystone.scene.scene import scene_of
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+Method: TypeAlias = Literal["equilibrium", "interior", "lcp"]
+"""How `check` finds its answer."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Verdict:
+class Verdict(Drawn):
     """The answer of `check`."""
 
     stable: bool
@@ -90,7 +102,11 @@ class Verdict:
 
     @classmethod
     def _of(
-        cls, core: _core.Verdict, scene: Scene, cone: str = CONES[0], forces: str = CANONICAL
+        cls,
+        core: _core.Verdict,
+        scene: Scene,
+        cone: str = CONES[0],
+        forces: WhichForces = CANONICAL,
     ) -> Verdict:
         return cls(
             core.stable,
@@ -218,22 +234,20 @@ class Verdict:
         """
         return later.table(self, rows)
 
-    def draw(self, path: str | PathLike[str]) -> None:
-        """Write a picture of the forces, or of the fall; the name ends in .svg or .png."""
-        later.save_figure(later.figure(self), path)
-
-    def _repr_svg_(self) -> str | None:
-        return later.svg_if_possible(self)
+    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
+        """Write everything but the scene (.json), or the picture of forces or of the fall."""
+        if not save_json(self, path):
+            self.draw(path, dpi=dpi)
 
 
 def check(
     scene: Scene,
     blocks: Iterable[str] | None = None,
-    method: str = "equilibrium",
+    method: Method = "equilibrium",
     *,
     facets: int = FACETS,
-    cone: str = ROUND,
-    forces: str = CANONICAL,
+    cone: ConeOfCheck = ROUND,
+    forces: WhichForces = CANONICAL,
 ) -> Verdict:
     """Does `scene` stand? With which contact forces, or how does it begin to fall?
 
@@ -269,10 +283,8 @@ def check(
     >>> verdict.stable
     True
     """
-    if isinstance(blocks, str):
-        raise _core.SceneError(f"blocks must be a list of names, not the string {blocks!r}")
-    names = None if blocks is None else list(blocks)
-    scene = copy.copy(scene)  # the one checked, whatever becomes of it
+    names = names_of(blocks)
+    scene = copy.copy(scene_of(scene))  # the one checked, whatever becomes of it
     core_cones(facets, cone, (ROUND, *CONES))
     round_cone = cone == ROUND and method != "lcp"
     inner = CONES[0] if cone in ("both", ROUND) else cone

@@ -6,11 +6,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import numpy as np
 
 from drystone._core import DrystoneError, SceneError
+from drystone.common.choices import Joints, Split, Up
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.compas_kind import is_assembly
@@ -89,21 +90,21 @@ class Imported:
 
 
 def load(
-    path: str | PathLike[str] | Any,
+    path: str | PathLike[str] | object,
     *,
     scale: float = 1.0,
-    up: str = "z",
+    up: Up = "z",
     friction: float | Mapping[str, float] = FRICTION,
     density: float | Mapping[str, float] | None = None,
     gravity: Sequence[float] | None = None,
     fixed: Iterable[str] = (),
     ground: bool = False,
-    tolerance: float | str | None = None,
+    tolerance: float | Literal["auto"] | None = None,
     max_pieces: int | None = None,
     simplify: float | None = None,
-    split: str | None = None,
+    split: Split | None = None,
     hull: bool = False,
-    joints: str = "error",
+    joints: Joints = "error",
     surface: bool | None = None,
 ) -> Imported:
     """A scene from a file of another tool.
@@ -141,7 +142,7 @@ def load(
     make a scene (two of them overlap), and OSError for a file that cannot be read.
     """
     live = compas_data.is_live(path)
-    source: Any = path if live else Path(fspath(path))
+    source: Any = path if live else Path(fspath(cast("str | PathLike[str]", path)))
     if up not in UP:
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
     if not 0 < scale < float("inf"):
@@ -224,7 +225,8 @@ class Taking:
 
 
 def _read(path: Path, collected: Collected, taking: Taking, split: str | None) -> str:
-    """Fill `collected` and return the name of the format."""
+    """Fill `collected` and return the name of the format; FileNotFoundError for no file."""
+    path.stat()
     ending = path.suffix.lower()
     if ending in ENDINGS and not path.is_dir():
         return mesh.read(path, collected, split=split, **taking.for_meshes())

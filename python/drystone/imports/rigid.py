@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
+from drystone.common.choices import Joints
 from drystone.imports.collected import Collected, FormatError
 from drystone.imports.weight import Weight, of_pieces, together
 from drystone.meshes.hull import hull_corners
@@ -13,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-JOINTS = ("error", "fixed")
+JOINTS = get_args(Joints)
 """What may be done with joints that turn or slide."""
 
 

@@ -14,9 +14,11 @@ from os import PathLike
 from drystone.many import engines
 from drystone.many.answers import ManyPlans, ScenePlan
 from drystone.many.engine import EngineError
+from drystone.many.engines import EngineName
 from drystone.many.jobs import Job, Scenes, jobs_of
 from drystone.many.store import Store
 from drystone.many.work import Settings
+from drystone.planning.search import StabilityTest
 
 __all__ = ["ENGINES", "EngineError", "ManyPlans", "Progress", "ScenePlan", "plan_many"]
 
@@ -29,10 +31,10 @@ Progress = Callable[[int, "int | None", ScenePlan], None]
 
 def plan_many(
     scenes: Scenes,
-    engine: str = "threads",
+    engine: EngineName = "threads",
     output: str | PathLike[str] | None = None,
     *,
-    test: str = "reuse",
+    test: StabilityTest = "reuse",
     node_limit: int | None = None,
     time_limit: float | None = None,
     shortcuts: bool = True,

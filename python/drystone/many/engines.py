@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import Literal, TypeAlias, get_args
 
 from drystone.many.engine import Engine, cores
 from drystone.many.on_threads import on_threads
 
-ENGINES = ("threads", "ray")
+EngineName: TypeAlias = Literal["threads", "ray"]
+ENGINES = get_args(EngineName)
 
 
-def of(name: str, workers: int | None, address: str | None, retries: int) -> Engine:
+def of(name: EngineName, workers: int | None, address: str | None, retries: int) -> Engine:
     """The engine called `name`; ValueError for arguments it cannot use."""
     if workers is not None and workers < 1:
         raise ValueError(f"workers is {workers}: it must be one or more")

@@ -13,7 +13,7 @@ from typing import Any
 
 from drystone import _core
 from drystone.planning.answer import Plan
-from drystone.planning.search import Progress, plan
+from drystone.planning.search import Progress, StabilityTest, plan
 from drystone.scene import Scene
 
 
@@ -21,7 +21,7 @@ from drystone.scene import Scene
 class Settings:
     """Everything but the scene that a plan depends on."""
 
-    test: str
+    test: StabilityTest
     node_limit: int | None
     time_limit: float | None
     shortcuts: bool

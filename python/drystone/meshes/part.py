@@ -20,6 +20,7 @@ from drystone.meshes.surface import Surface, repaired
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from trimesh import Trimesh
 
 FLAT = 3e-7
 """What is within this share of a mesh's diagonal of a plane is in it: five times the rounding of
@@ -83,7 +84,7 @@ BEYOND_USE = (ArithmeticError, LookupError, MemoryError, ValueError)
 
 
 def read_part(
-    source: str | PathLike[str] | Any,
+    source: str | PathLike[str] | Trimesh,
     *,
     scale: float | tuple[float, float, float] = 1.0,
     name: str | None = None,

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Literal, TypeAlias, get_args
 
-REUSE = ("full", "motionless", "none")
+Reuse: TypeAlias = Literal["full", "motionless", "none"]
+REUSE = get_args(Reuse)
 """What a step may take over from the one before it: see `simulate`."""
 
-FORMULATIONS = ("velocity", "acceleration")
+Formulation: TypeAlias = Literal["velocity", "acceleration"]
+FORMULATIONS = get_args(Formulation)
 """What the unknowns of a step may be: see `simulate`."""
 
 MOST_STEPS = 10**9

@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.common import later
+from drystone.common.drawn import DPI, Paged, is_film
 from drystone.common.files import write_whole
 from drystone.common.text import MOST_ROWS, counted, shorten
+from drystone.common.units import quantity
 from drystone.motion.modes import ENDINGS
 from drystone.scene import Scene
 
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Run:
+class Run(Paged):
     """The answer of `simulate`: k steps of n bodies, fixed ones included.
 
     Most arrays have one entry for each step. `poses` and `velocities` have one more, the beginning.
@@ -153,9 +155,9 @@ class Run:
     def __str__(self) -> str:
         text = (
             f"{ENDINGS.get(self.ending, self.ending)}: {counted(self.steps, 'step')} of "
-            f"{self.dt:.4g} s, {counted(int(self.pivots.sum()), 'pivot')}, "
-            f"{1e3 * float(self.solve_seconds.sum()):.3g} ms in solves of "
-            f"{1e3 * float(self.step_seconds.sum()):.3g} ms."
+            f"{quantity(self.dt, 's', 4)}, {counted(int(self.pivots.sum()), 'pivot')}, "
+            f"{quantity(float(self.solve_seconds.sum()), 's')} in solves of "
+            f"{quantity(float(self.step_seconds.sum()), 's')}."
         )
         if self.reason is not None:
             text += f"\n{self.reason}."
@@ -222,15 +224,28 @@ class Run:
         """
         return later.page(self)
 
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the run as a compressed NumPy archive (.npz), whole or not at all."""
+    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
+        """Write the run as a compressed NumPy archive (.npz), or show it: a page that plays it
+        (.html), a film (.gif, .mp4), or a picture of its end (.svg, .pdf, .png).
+
+        The archive is what `load` reads. A film plays at the speed of the run; an .mp4 needs
+        ffmpeg. A file is replaced whole or not at all.
+        """
+        if is_film(path):
+            later.film(self, path, dpi)
+        elif Path(path).suffix.lower() in (".html", ".svg", ".pdf", ".png"):
+            self.draw(path, dpi=dpi)
+        else:
+            write_whole(Path(path), self._packed())
+
+    def _packed(self) -> bytes:
         from drystone.motion import run_file
 
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         arrays = {name: value for name, value in values.items() if hasattr(value, "dtype")}
         about = {name: value for name, value in values.items() if name not in arrays}
         about = {**about, "names": list(self.names), "scene": self.scene.to_json()}
-        write_whole(Path(path), run_file.pack(about, arrays))
+        return run_file.pack(about, arrays)
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> Run:

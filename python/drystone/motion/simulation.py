@@ -5,23 +5,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from drystone import _core
-from drystone.common.cones import CONES, FACETS, core_cones
-from drystone.motion.modes import MOST_STEPS, Progress
+from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
+from drystone.common.numbers import number, vector, whole
+from drystone.motion.modes import MOST_STEPS, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.scene import Scene
+from drystone.scene.scene import scene_of
 
 
 def simulate(
     scene: Scene,
     dt: float = 1 / 240,
     steps: int = 1200,
-    reuse: str = "full",
+    reuse: Reuse = "full",
     *,
     restitution: float = 0.0,
-    formulation: str = "velocity",
+    formulation: Formulation = "velocity",
     velocities: Mapping[str, Sequence[float]] | None = None,
     facets: int = FACETS,
-    cone: str = CONES[0],
+    cone: Pyramid = INSCRIBED,
     forces: bool = False,
     progress: Progress | None = None,
 ) -> Run:
@@ -75,6 +77,7 @@ def simulate(
     >>> run.poses.shape
     (241, 8, 7)
     """
+    whole(steps, "steps")
     if not 0 <= steps <= MOST_STEPS:
         raise _core.SimulationError(f"steps is {steps}: it must be from 0 to {MOST_STEPS}")
     if not isinstance(velocities or {}, Mapping):
@@ -82,11 +85,12 @@ def simulate(
             f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
         )
     cones = core_cones(facets, cone)
-    world = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
+    start, dt = scene_of(scene)._core, number(dt, "dt")
+    world = _core.World(start, dt, reuse, restitution, formulation, cones)
     for name, velocity in (velocities or {}).items():
         world.set_velocity(name, velocity_of(world, name, velocity))
-    start = Scene._of(world.scene)
-    return Run._of(world.run(steps, forces, progress), world, start)
+    begun = Scene._of(world.scene)
+    return Run._of(world.run(steps, forces, progress), world, begun)
 
 
 def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:
@@ -96,14 +100,7 @@ def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[
 
 
 def numbers(value: float | Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
-    """`value` as so many floats, one may stand alone; SimulationError naming `what` otherwise."""
-    try:
-        found = tuple(map(float, (value,) if isinstance(value, int | float) else value))
-    except (TypeError, ValueError):
-        found = ()
-    if len(found) != count:
-        spelled = {1: "one", 2: "two", 3: "three", 6: "six"}[count]
-        noun = "number" if count == 1 else "numbers"
-        message = f"{what} must be {spelled} {noun} ({units}), not {value!r}"
-        raise _core.SimulationError(message)
-    return found
+    """`value` as so many floats, one may stand alone; errors name `what` and its units."""
+    given = (value,) if isinstance(value, int | float) else value
+    spelled = {1: "one number", 2: "two numbers", 3: "three numbers", 6: "six numbers"}[count]
+    return vector(given, count, what, f"{spelled} ({units})", _core.SimulationError)

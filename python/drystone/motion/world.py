@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.common.cones import CONES, FACETS, core_cones
+from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
+from drystone.common.drawn import Drawn
+from drystone.common.numbers import name_of, number, whole
 from drystone.equilibrium.contact_force import ContactForce
-from drystone.motion.modes import Progress
+from drystone.motion.modes import Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.motion.simulation import numbers, velocity_of
-from drystone.scene import Inertia, Point, Scene
-from drystone.scene.scene import UPRIGHT
+from drystone.scene import Point, Scene
+from drystone.scene.adding import Adding
+from drystone.scene.scene import scene_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -49,7 +52,7 @@ class StepRecord:
     """The contact to blame for it: names of the two bodies, and what meets."""
 
 
-class World:
+class World(Adding, Drawn):
     """A scene in motion, one step at a time; between steps bodies may be pushed, added and removed.
 
     >>> import drystone as ds
@@ -73,16 +76,17 @@ class World:
         self,
         scene: Scene,
         dt: float = 1 / 240,
-        reuse: str = "full",
+        reuse: Reuse = "full",
         *,
         restitution: float = 0.0,
-        formulation: str = "velocity",
+        formulation: Formulation = "velocity",
         facets: int = FACETS,
-        cone: str = CONES[0],
+        cone: Pyramid = INSCRIBED,
     ) -> None:
         """Begin with a scene at rest; the arguments and errors are those of `simulate`."""
         cones = core_cones(facets, cone)
-        self._core = _core.World(scene._core, dt, reuse, restitution, formulation, cones)
+        start, dt = scene_of(scene)._core, number(dt, "dt")
+        self._core = _core.World(start, dt, reuse, restitution, formulation, cones)
 
     def step(self) -> StepRecord:
         """Make one step. StepError if it cannot be made; the world is then as it was."""
@@ -91,7 +95,7 @@ class World:
 
     def run(self, steps: int, *, forces: bool = False, progress: Progress | None = None) -> Run:
         """Make steps and record them, as `simulate` does."""
-        if steps < 0:
+        if whole(steps, "steps") < 0:
             raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
         start = self.scene
         return Run._of(self._core.run(steps, forces, progress), self._core, start)
@@ -159,7 +163,7 @@ class World:
 
     def set_velocity(self, name: str, velocity: Sequence[float]) -> None:
         """Set a body's velocity: (m/s, m/s, rad/s), in space three and three numbers."""
-        self._core.set_velocity(name, velocity_of(self._core, name, velocity))
+        self._core.set_velocity(name_of(name), velocity_of(self._core, name, velocity))
 
     def apply_force(
         self, name: str, force: Point, at: Point | None = None, moment: float | Point | None = None
@@ -170,7 +174,7 @@ class World:
         without one; `moment` is in N m, in space three numbers. Pushes add up, and end with the
         step.
         """
-        self._core.apply_force(name, *self._wrench(force, at, moment, "force", "N"))
+        self._core.apply_force(name_of(name), *self._wrench(force, at, moment, "force", "N"))
 
     def apply_impulse(
         self,
@@ -180,7 +184,9 @@ class World:
         moment: float | Point | None = None,
     ) -> None:
         """Change a body's velocity at once by an impulse (N s) and an impulsive moment (N m s)."""
-        self._core.apply_impulse(name, *self._wrench(impulse, at, moment, "impulse", "N s"))
+        self._core.apply_impulse(
+            name_of(name), *self._wrench(impulse, at, moment, "impulse", "N s")
+        )
 
     def _wrench(
         self,
@@ -201,6 +207,8 @@ class World:
     def add(self, place: Callable[[Scene], str]) -> str:
         """Add bodies at rest by whatever adds them to a scene, and return what that returns.
 
+        `add_box` and the others add one, as they do to a `Scene`.
+
         Raises SceneError as the scene does, and for bodies that overlap; nothing has changed then.
 
         >>> import drystone as ds
@@ -215,67 +223,12 @@ class World:
         self._core.extend(scene._core)
         return name
 
-    def add_box(
-        self,
-        center: Point,
-        size: Point,
-        angle: float = 0.0,
-        name: str | None = None,
-        density: float = 1.0,
-        friction: float | None = None,
-        fixed: bool = False,
-        *,
-        orientation: Sequence[float] = UPRIGHT,
-        mass: float | None = None,
-        center_of_mass: Point | None = None,
-        inertia: Inertia | None = None,
-    ) -> str:
-        """Add a box at rest and return its name; see `Scene.add_box`."""
-        return self.add(
-            lambda scene: scene.add_box(
-                center,
-                size,
-                angle,
-                name,
-                density,
-                friction,
-                fixed,
-                orientation=orientation,
-                mass=mass,
-                center_of_mass=center_of_mass,
-                inertia=inertia,
-            )
-        )
-
-    def add_polygon(
-        self,
-        vertices: Iterable[Point],
-        name: str | None = None,
-        density: float = 1.0,
-        friction: float | None = None,
-        fixed: bool = False,
-        *,
-        mass: float | None = None,
-        center_of_mass: Point | None = None,
-        inertia: Inertia | None = None,
-    ) -> str:
-        """Add a convex polygon at rest and return its name; see `Scene.add_polygon`."""
-        return self.add(
-            lambda scene: scene.add_polygon(
-                vertices,
-                name,
-                density,
-                friction,
-                fixed,
-                mass=mass,
-                center_of_mass=center_of_mass,
-                inertia=inertia,
-            )
-        )
+    def _put(self, put: Callable[[_core.Scene], str]) -> str:
+        return self.add(lambda scene: put(scene._core))
 
     def remove(self, name: str) -> None:
         """Take a body out. The next step starts from scratch."""
-        self._core.remove(name)
+        self._core.remove(name_of(name))
 
     def snapshot(self) -> bytes:
         """The whole state as bytes. A world restored from it goes on as this one does, bit for bit.

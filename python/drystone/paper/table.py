@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from drystone import scenes
 from drystone.paper.plain import plain_table
 from drystone.planning.answer import Plan
-from drystone.planning.search import plan
+from drystone.planning.search import StabilityTest, plan
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from drystone.scene import Scene
 
-COLUMNS = ("lp", "lp-warm", "lcp", "reuse-dantzig", "reuse")
+COLUMNS: tuple[StabilityTest, ...] = ("lp", "lp-warm", "lcp", "reuse-dantzig", "reuse")
 """Stability tests. The paper has lp, lcp and reuse-dantzig, which it calls LCP + Reuse."""
 
 
@@ -81,7 +81,7 @@ def measure(
     rows = []
     for example in examples:
         scene = example.build()
-        plans = {}
+        plans: dict[str, Plan] = {}
         for test in COLUMNS:
             announce(f"{example.name} ({test})")
             plans[test] = plan(scene, test, shortcuts=False, threads=1)

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import io
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from drystone.common.drawn import DPI
 from drystone.common.files import write_whole
 from drystone.pictures import style
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
 LONGEST_SIDE = 8.0
@@ -33,6 +36,19 @@ SETTINGS: dict[Any, Any] = {
     "hatch.linewidth": 0.6,
 }
 """Same input, same file: no random identifiers. Text stays text."""
+
+
+ENDINGS = (".svg", ".pdf", ".png")
+"""Of the names of pictures."""
+
+UNSAID: dict[str, dict[str, None]] = {
+    "svg": {"Date": None},
+    "pdf": {"CreationDate": None},
+    "png": {"Software": None},
+}
+"""What files do not say of when and by what they were made."""
+
+_GIVEN: ContextVar[Axes | None] = ContextVar("axes to draw in", default=None)
 
 
 class Outlined(Protocol):
@@ -58,6 +74,8 @@ class Canvas:
     points_per_metre: float
     box: tuple[float, float, float, float]
     """(left, bottom, right, top) of the view in metres."""
+    on_given_axes: bool = False
+    """Whether the figure is somebody else's: see `drawing_on`."""
 
     @property
     def diagonal(self) -> float:
@@ -79,6 +97,9 @@ def fitted(
     `key` leaves room for a row of arrows under the drawing, `colour_bar` for one on its right.
     """
     box = _view(bodies)
+    given = _GIVEN.get()
+    if given is not None:
+        return _within(given, box, title, note, key)
     width, height = box[2] - box[0], box[3] - box[1]
     scale = LONGEST_SIDE / max(width, height)
     drawn_width, drawn_height = width * scale, height * scale
@@ -124,25 +145,72 @@ def fitted(
     return Canvas(figure, axes, 72 * scale, box)
 
 
-def save(figure: Figure, path: str | PathLike[str]) -> None:
-    """Write the figure whole or not at all; ValueError unless the name ends in .svg or .png."""
+@contextmanager
+def drawing_on(axes: Axes) -> Iterator[None]:
+    """Within it `fitted` makes no figure of its own but takes these axes."""
+    token = _GIVEN.set(axes)
+    try:
+        yield
+    finally:
+        _GIVEN.reset(token)
+
+
+def _within(
+    axes: Axes, box: tuple[float, float, float, float], title: str, note: str, key: bool
+) -> Canvas:
+    """A canvas on somebody's axes: title above, note below, sizes of lines as the axes are now."""
+    figure = cast("Figure", axes.get_figure(root=True))
+    extent = axes.get_window_extent()
+    points = 72 / figure.dpi
+    width, height = box[2] - box[0], box[3] - box[1]
+    scale = points * min(extent.width / width, extent.height / height)
+    axes.set_xlim(box[0], box[2])
+    axes.set_ylim(box[1], box[3])
+    axes.set_aspect("equal", adjustable="box")
+    axes.set_axis_off()
+    inches = extent.width / figure.dpi
+    axes.set_title(
+        "\n".join(_wrapped(title, inches, 11)),
+        loc="left",
+        size=11,
+        weight="bold",
+        color=style.INK,
+        parse_math=False,
+    )
+    axes.annotate(
+        "\n".join(_wrapped(note, inches, 8)),
+        (0, 0),
+        xycoords="axes fraction",
+        xytext=(0, -26 if key else -4),
+        textcoords="offset points",
+        size=8,
+        color=style.FAINT,
+        va="top",
+        parse_math=False,
+    )
+    return Canvas(figure, axes, scale, box, on_given_axes=True)
+
+
+def save(figure: Figure, path: str | PathLike[str], dpi: float = DPI) -> None:
+    """Write the figure whole or not at all; ValueError unless the name ends as a picture's."""
     suffix = Path(fspath(path)).suffix.lower()
-    if suffix not in (".svg", ".png"):
-        raise ValueError(f"a picture's name ends in .svg or .png, not {suffix or 'nothing'!r}")
-    data = _rendered(figure, suffix[1:])
+    if suffix not in ENDINGS:
+        known = f"{', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}"
+        raise ValueError(f"a picture's name ends in {known}, not {suffix or 'nothing'!r}")
+    data = rendered(figure, suffix[1:], dpi)
     write_whole(Path(fspath(path)), data)
 
 
 def svg(figure: Figure) -> str:
     """The figure as the text of an SVG image."""
-    return _rendered(figure, "svg").decode()
+    return rendered(figure, "svg").decode()
 
 
-def _rendered(figure: Figure, kind: str) -> bytes:
+def rendered(figure: Figure, kind: str, dpi: float = DPI) -> bytes:
+    """The figure as a file of some kind: the same figure, the same bytes."""
     out = io.BytesIO()
-    metadata = {"Date": None} if kind == "svg" else {"Software": None}
     with mpl.rc_context(SETTINGS):
-        figure.savefig(out, format=kind, dpi=160, metadata=metadata)
+        figure.savefig(out, format=kind, dpi=dpi, metadata=UNSAID[kind])
     return out.getvalue()
 
 

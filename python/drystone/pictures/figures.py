@@ -29,6 +29,7 @@ from drystone.pictures.shapes import (
 )
 from drystone.report.overlaps import names_in, titled
 from drystone.scene import Body, Scene
+from drystone.scene.body import planar
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,7 +44,7 @@ def scene_figure(scene: Scene) -> Figure:
     """The bodies with their names; what overlaps in red, with its depth."""
     if scene.dimension == 3:
         return in_space.scene_figure(scene)
-    bodies = scene.bodies
+    bodies = planar(scene.bodies)
     movable = [body for body in bodies if not body.fixed]
     overlaps = scene.overlaps
     red = names_in(overlaps)
@@ -72,7 +73,7 @@ def moved_figure(verdict: Moved, unit: str) -> Figure:
     """The same of whatever moves, in so many of a unit."""
     if verdict.scene.dimension == 3:
         return in_space.moved_figure(verdict, unit)
-    bodies = verdict.scene.bodies
+    bodies = planar(verdict.scene.bodies)
     present = set(verdict.names)
     falling = set(verdict.falling)
     headline, _, details = str(verdict).partition("; ")
@@ -103,7 +104,7 @@ def plan_figure(plan: Plan) -> Figure:
     # No times: the same plan is the same picture.
     work = f"{counted(plan.tests, 'test')} ({plan.test}), {counted(plan.pivots, 'pivot')}"
     headline = str(plan).partition("; ")[0]
-    bodies = plan.scene.bodies
+    bodies = planar(plan.scene.bodies)
     if not plan.found:
         return _unfinished_figure(plan, bodies, headline, work)
     held = {name for names in plan.holds for name in names}
@@ -150,7 +151,7 @@ def _counted_holds(plan: Plan) -> str:
 
 def _draw_ways_out(canvas: Canvas, plan: Plan) -> None:
     """From the middle of every block, beside its label, towards where it leaves."""
-    bodies = {body.name: body for body in plan.scene.bodies}
+    bodies = {body.name: body for body in planar(plan.scene.bodies)}
     ways = np.array(plan.directions)
     centroids = np.array([bodies[name].centroid for name in plan.order])
     reach = [

@@ -15,6 +15,7 @@ from drystone.common.text import shown
 from drystone.pictures import style
 from drystone.pictures.canvas import bounds
 from drystone.scene import Body, Scene
+from drystone.scene.body import planar
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -52,7 +53,7 @@ def graph_figure(scene: Scene, nodes: Sequence[SubAssembly], order: Sequence[str
     axes.set_axis_off()
     stands = {frozenset(names): stable for names, stable in nodes}
     _draw_edges(axes, places, stands, _path(order))
-    shrink = _Shrink(scene.bodies)
+    shrink = _Shrink(planar(scene.bodies))
     for names, place in places.items():
         _draw_node(axes, shrink, names, stands[names], place)
     stable = sum(stands.values())

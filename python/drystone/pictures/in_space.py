@@ -22,6 +22,7 @@ from drystone.pictures.outline import outline
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_dashed, draw_solids
 from drystone.report.overlaps import names_in, titled
+from drystone.scene.body import solids
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -108,7 +109,7 @@ def draw_forces(
 
 
 def _drawing(scene: Scene) -> Drawing:
-    bodies = scene.bodies
+    bodies = solids(scene.bodies)
     return Drawing.of(bodies, View.of(bodies, scene.gravity))
 
 

@@ -12,7 +12,10 @@ from drystone.pictures.canvas import Canvas
 
 
 def draw_order_bar(canvas: Canvas, count: int) -> None:
-    """The colour bar: first removed at the top, as the blocks usually are."""
+    """The colour bar: first removed at the top, as the blocks usually are. None on axes that were
+    given: the rest of that figure is not ours."""
+    if canvas.on_given_axes:
+        return
     frame = canvas.axes.get_position()
     width = canvas.figure.get_figwidth()
     bar = canvas.figure.add_axes((1 - 0.78 / width, frame.y0, 0.14 / width, frame.height))

@@ -7,13 +7,20 @@ from typing import TYPE_CHECKING
 
 from drystone.equilibrium.limits import Limit
 from drystone.equilibrium.margins import Margin
+from drystone.equilibrium.structure import Structure
 from drystone.equilibrium.verdict import Verdict
+from drystone.motion.run import Run
+from drystone.motion.world import World
+from drystone.pictures.canvas import drawing_on
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
 from drystone.pictures.limits import limit_figure, margin_figure
+from drystone.pictures.recording import frame_figure
 from drystone.planning.answer import Plan
+from drystone.recording.of_run import recording_of_run
 from drystone.scene import Scene
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 
@@ -28,3 +35,27 @@ figure_of.register(Verdict, verdict_figure)
 figure_of.register(Limit, limit_figure)
 figure_of.register(Margin, margin_figure)
 figure_of.register(Plan, plan_figure)
+
+
+@figure_of.register(Run)
+def _(run: Run) -> Figure:
+    """Where the bodies are at the end."""
+    return frame_figure(recording_of_run(run), run.steps)
+
+
+@figure_of.register(World)
+def _(world: World) -> Figure:
+    """Where the bodies are now."""
+    return scene_figure(world.scene)
+
+
+@figure_of.register(Structure)
+def _(structure: Structure) -> Figure:
+    """The blocks that are there, with the forces between them or how they fall."""
+    return verdict_figure(structure.check())
+
+
+def draw_on(thing: object, axes: Axes) -> None:
+    """Its picture, in axes of a figure that is somebody else's."""
+    with drawing_on(axes):
+        figure_of(thing)

@@ -5,19 +5,24 @@ from __future__ import annotations
 import copy
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from os import PathLike, fspath
+from os import PathLike
 from typing import TYPE_CHECKING, Any, TextIO
 
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS
-from drystone.common.json_text import write_json
+from drystone.common.drawn import DPI, Paged, is_film
+from drystone.common.json_text import save_json, write_json
 from drystone.common.text import MOST_ROWS, counted, shorten
-from drystone.equilibrium.contact_force import CANONICAL
+from drystone.common.units import quantity
+from drystone.equilibrium.contact_force import CANONICAL, WhichForces
 from drystone.equilibrium.verdict import Verdict
 from drystone.scene import Scene
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from drystone.common.later import Page
 
 ENDINGS = {
@@ -60,7 +65,7 @@ class Blocked:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Plan:
+class Plan(Paged):
     """The answer of `plan`."""
 
     found: bool
@@ -156,10 +161,34 @@ class Plan:
             steps += [("release", name, k) for name in held if name not in then]
         return steps
 
+    @property
+    def assembly_order(self) -> tuple[str, ...]:
+        """The order read backwards: names of the blocks, first put up first."""
+        return self.order[::-1]
+
+    def hand_forces(self) -> tuple[dict[str, NDArray[np.float64]], ...]:
+        """What hands bear, for each structure of `holds`: the wrench of the hand on a held block.
+
+        A wrench is (3,): the force, N, and the moment about the block's centre of mass, N m; in
+        space (6,). Of all forces that hold the structure those of least norm (see
+        `Verdict.forces`). They are computed at every call, for all structures on the way.
+        """
+        import numpy as np
+
+        if not any(self.holds):
+            return tuple({} for _ in self.holds)
+        order = self.order or self.reached[::-1]
+        held = [list(names) for names in reversed(self.holds)][-len(order) :]
+        found = _core.forces_along(self.scene._core, order[::-1], 1, None, self.cones, held)
+        made: list[dict[str, NDArray[np.float64]]] = [{} for _ in self.holds]
+        for blocks, hands in zip(found.blocks, found.hands, strict=True):
+            made[len(order) - int(blocks)] = {name: np.array(wrench) for name, wrench in hands}
+        return tuple(made)
+
     def __str__(self) -> str:
         work = (
             f"{counted(self.tests, 'test')}, {counted(self.pivots, 'pivot')}, "
-            f"{1e3 * self.test_seconds:.3g} ms in tests of {1e3 * self.seconds:.3g} ms"
+            f"{quantity(self.test_seconds, 's')} in tests of {quantity(self.seconds, 's')}"
         )
         if self.found:
             return (
@@ -205,6 +234,7 @@ class Plan:
             "found": self.found,
             "status": self.status,
             "order": list(self.order),
+            "assembly_order": list(self.assembly_order),
             "reached": list(self.reached),
             "falls_next": list(self.falls_next),
             "holds": [list(held) for held in self.holds] if any(self.holds) else [],
@@ -230,15 +260,16 @@ class Plan:
             "whole": whole,
         }
 
-    def draw(self, path: str | PathLike[str]) -> None:
-        """Write a picture of the order (.svg or .png), or a page to step through it (.html)."""
-        if fspath(path).lower().endswith(".html"):
-            self.view().save(path)
-            return
-        later.save_figure(later.figure(self), path)
+    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
+        """Write everything but the scene (.json), a page to step through (.html), a film (.gif,
+        .mp4) or a picture (.svg, .pdf, .png)."""
+        if is_film(path):
+            later.film(self, path, dpi)
+        elif not save_json(self, path):
+            self.draw(path, dpi=dpi)
 
     def view(
-        self, progress: Callable[[int, int], None] | None = None, *, forces: str = CANONICAL
+        self, progress: Callable[[int, int], None] | None = None, *, forces: WhichForces = CANONICAL
     ) -> Page:
         """A page that steps through the order, with the contact forces of every structure.
 
@@ -248,6 +279,3 @@ class Plan:
         times a second with (blocks placed, blocks in all).
         """
         return later.page(self, progress, forces)
-
-    def _repr_svg_(self) -> str | None:
-        return later.svg_if_possible(self)

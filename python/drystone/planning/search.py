@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable, Sequence
+from typing import Literal, TypeAlias, get_args
 
 from drystone import _core
-from drystone.common.cones import CONES, FACETS, core_cones
+from drystone.common.cones import CONES, FACETS, INSCRIBED, Pyramid, core_cones
+from drystone.common.numbers import number, whole
 from drystone.planning.answer import Plan
 from drystone.scene import Scene
+from drystone.scene.scene import scene_of
 
-TESTS = ("reuse", "reuse-dantzig", "lcp", "lp", "lp-warm")
+StabilityTest: TypeAlias = Literal["reuse", "reuse-dantzig", "lcp", "lp", "lp-warm"]
+TESTS = get_args(StabilityTest)
 """The stability tests `plan` knows: see there."""
 
 Progress = Callable[[int, int, int], None]
@@ -20,7 +24,7 @@ test the complete structure is checked, block by block, and "blocks placed" coun
 
 def plan(
     scene: Scene,
-    test: str = "reuse",
+    test: StabilityTest = "reuse",
     node_limit: int | None = None,
     time_limit: float | None = None,
     progress: Progress | None = None,
@@ -31,7 +35,7 @@ def plan(
     directions: Sequence[Sequence[float]] | None = None,
     *,
     facets: int = FACETS,
-    cone: str = CONES[0],
+    cone: Pyramid = INSCRIBED,
 ) -> Plan:
     """Find an order in which blocks can be taken away so that what is left always stands.
 
@@ -87,6 +91,11 @@ def plan(
     >>> ds.plan(ds.scenes.arch(7)).status, ds.plan(ds.scenes.arch(7), hold=1).status
     ('no_order', 'found')
     """
+    for count, what in ((hold, "hold"), (node_limit, "node_limit"), (threads, "threads")):
+        if count is not None:
+            whole(count, what)
+    if time_limit is not None:
+        number(time_limit, "time_limit")
     if hold < 0:
         raise ValueError(f"hold is {hold}: it must be zero or more")
     if directions is not None and not clear_path:
@@ -97,7 +106,7 @@ def plan(
     if threads is not None and threads < 1:
         raise ValueError(f"threads is {threads}: it must be one or more")
     cones = core_cones(facets, cone)
-    scene = copy.copy(scene)  # the one planned, whatever becomes of it
+    scene = copy.copy(scene_of(scene))  # the one planned, whatever becomes of it
     return Plan._of(
         _core.plan(
             scene._core,

@@ -97,6 +97,7 @@ class RecordingJson(TypedDict):
     dimension: Literal[2, 3]
     title: str
     notes: list[str]
+    details: list[str]
     gravity: list[float]
     bodies: list[BodyJson]
     frames: FramesJson

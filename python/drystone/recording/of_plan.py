@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from drystone import _core
 from drystone.common.text import counted, shorten, shown
-from drystone.equilibrium.contact_force import ANY, CANONICAL, which_forces
+from drystone.common.units import quantity
+from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces, which_forces
 from drystone.equilibrium.verdict import Verdict
 from drystone.recording import budget
 from drystone.recording.contract import ABSENT, FALLING, NEXT, PRESENT
@@ -35,7 +36,7 @@ SLACK = 8
 
 
 def plan_recording(
-    plan: Plan, progress: Progress | None = None, which: str = CANONICAL
+    plan: Plan, progress: Progress | None = None, which: WhichForces = CANONICAL
 ) -> Recording:
     """The order of `plan` step by step, with contact forces of every structure on the way.
 
@@ -49,16 +50,21 @@ def plan_recording(
     if plan.status == "whole_falls" and plan.whole is not None:
         return _fallen(plan, plan.whole, headline)
     order = plan.order if plan.found else tuple(reversed(plan.reached))
-    notes = [
-        f"{counted(plan.tests, 'stability test')} ({plan.test}), {counted(plan.pivots, 'pivot')}. "
-        "The charts show the work of the search: at each step, all tests of structures with as "
-        "many blocks as are left. The whole structure is checked before the search. Other forces "
-        "may hold the same structure up"
-        + ("; those shown have the least norm." if which == CANONICAL else ", too.")
-    ]
+    forces, hands = _forces(plan, order, progress, which)
+    notes = []
+    if plan.found and len(order) > 1:
+        notes.append(
+            "Played backwards it is an order of assembly: the last block taken away is the first "
+            "one put up."
+        )
+    if len(np.asarray(forces.vectors)):
+        notes.append(
+            "Many forces can hold up one structure; these are the ones of least norm."
+            if which == CANONICAL
+            else "Many forces can hold up one structure; these are some of them."
+        )
     if any(plan.holds) and which == ANY:
         notes.append("No forces are shown of structures that stand only because blocks are held.")
-    forces, hands = _forces(plan, order, progress, which)
     return Recording(
         kind="plan",
         title=headline,
@@ -70,7 +76,18 @@ def plan_recording(
         series=_series(plan, len(order)),
         captions=_captions(plan, order, hands),
         notes=notes,
+        details=_details(plan),
     )
+
+
+def _details(plan: Plan) -> list[str]:
+    """What the charts show."""
+    return [
+        f"The search made {counted(plan.tests, 'stability test')} by the method {plan.test!r}, "
+        f"with {counted(plan.pivots, 'pivot')} of its solver.",
+        "At each step a chart shows the sum over all tests of structures with as many blocks as "
+        "there are at that step. The first check, of the whole structure, is not counted.",
+    ]
 
 
 def _states(plan: Plan, order: Sequence[str]) -> NDArray[np.uint8]:
@@ -115,7 +132,7 @@ def _captions(plan: Plan, order: Sequence[str], hands: dict[int, Hands]) -> list
             text += f" Next: {_next_step(plan, order, step)}."
         for name, wrench in hands.get(step, ()):
             force = float(np.linalg.norm(wrench[: plan.scene.dimension]))
-            text += f" The hand on {shown(name)} bears {force:.3g} N."
+            text += f" The hand on {shown(name)} bears {quantity(force, 'N')}."
         captions.append((step, text))
     return captions
 
@@ -158,7 +175,7 @@ def _series(plan: Plan, blocks: int) -> list[Series]:
 
 
 def _forces(
-    plan: Plan, order: Sequence[str], progress: Progress | None, which: str
+    plan: Plan, order: Sequence[str], progress: Progress | None, which: WhichForces
 ) -> tuple[FrameForces, dict[int, Hands]]:
     """Of order[k:] in frame k, and what hands do there; the bare supports are the last frame."""
     scene = plan.scene

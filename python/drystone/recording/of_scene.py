@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from drystone.common.text import shown
+from drystone.common.units import quantity
 from drystone.recording.contract import FALLING, PRESENT
 from drystone.recording.recording import Recording
 from drystone.report.overlaps import names_in, said, titled
 
 if TYPE_CHECKING:
-    from drystone.scene import Scene
+    from drystone.scene import Load, Scene
 
 
 def scene_recording(scene: Scene) -> Recording:
@@ -29,6 +32,19 @@ def scene_recording(scene: Scene) -> Recording:
         captions=[(0, "Red blocks overlap." if overlaps else "The scene as it is given.")],
         notes=[
             *(f"Overlap of {line}." for line in said(overlaps)),
-            *(f"Load {load.name}: {load.force} N on {load.body}." for load in scene.loads),
+            *(_said_of_load(load) for load in scene.loads),
         ],
     )
+
+
+def _said_of_load(load: Load) -> str:
+    """How large it is, whereto, and on what."""
+    size = math.hypot(*load.force)
+    parts = []
+    if size > 0:
+        way = ", ".join(f"{x / size + 0.0:.3g}" for x in load.force)
+        parts.append(f"{quantity(size, 'N')} towards ({way})")
+    moment = load.moment if isinstance(load.moment, tuple) else (load.moment,)
+    if any(moment):
+        parts.append(f"a moment of {quantity(math.hypot(*moment), 'N m')}")
+    return f"Load {shown(load.name)} on {shown(load.body)}: {' and '.join(parts) or 'nothing'}."

@@ -96,7 +96,9 @@ class Recording:
     captions: Sequence[tuple[int, str]] = ()
     """(frame, text): what is said from that frame on."""
     notes: Sequence[str] = field(default=())
-    """Lines under the picture."""
+    """Lines under the picture: what the reader has to know."""
+    details: Sequence[str] = field(default=())
+    """Lines beside the charts, seen by those who open them: how much work it took."""
 
     @property
     def dimension(self) -> Literal[2, 3]:
@@ -135,6 +137,7 @@ class Recording:
             "dimension": self.dimension,
             "title": self.title,
             "notes": list(self.notes),
+            "details": list(self.details),
             "gravity": list(self.gravity),
             "bodies": [_body(body) for body in self.bodies],
             "frames": {

@@ -8,6 +8,7 @@ from functools import singledispatch
 from typing import TYPE_CHECKING
 
 from drystone.common.text import MOST_ROWS, shown
+from drystone.common.units import scale_of
 from drystone.equilibrium.verdict import Verdict
 from drystone.motion.run import Run
 from drystone.planning.answer import Plan
@@ -67,17 +68,17 @@ def text(answer: object, rows: int = MOST_ROWS) -> str:
     raise TypeError(f"there is no table of a {type(answer).__name__}")
 
 
-@text.register
+@text.register(Verdict)
 def _(verdict: Verdict, rows: int = MOST_ROWS) -> str:
     return text_of(verdict_table(verdict, rows, IN_PYTHON))
 
 
-@text.register
+@text.register(Plan)
 def _(plan: Plan, rows: int = MOST_ROWS) -> str:
     return text_of(plan_table(plan, rows))
 
 
-@text.register
+@text.register(Run)
 def _(run: Run, rows: int = MOST_ROWS) -> str:
     return text_of(run_table(run, rows))
 
@@ -90,14 +91,18 @@ def verdict_table(verdict: Verdict, rows: int = MOST_ROWS, more: str = IN_JSON) 
 def _force_table(verdict: Verdict, rows: int, more: str) -> Table:
     axes = "xyz"[: verdict.scene.dimension]
     metres = [f"{axis} [m]" for axis in axes]
-    made = table("contact", *metres, "normal [N]", "tangential [N]")
     forces = verdict.forces[:rows]
     largest = max((force.normal_force for force in forces), default=0.0)
+    size, unit = scale_of([largest], "N")
+    made = table("contact", *metres, f"normal [{unit}]", f"tangential [{unit}]")
     for force in forces:
         made.add_row(
             f"{shown(force.a)} - {shown(force.b)}",
             *(f"{value:.4g}" for value in force.point),
-            *(_cell(value, largest) for value in (force.normal_force, force.tangential_force)),
+            *(
+                _cell(value / size, largest / size)
+                for value in (force.normal_force, force.tangential_force)
+            ),
         )
     return cut(made, len(verdict.forces), rows, more)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -148,6 +149,16 @@ def _line(kind: str, body: Body | Solid) -> str:
     at = ", ".join(f"{x:.4g}" for x in body.center_of_mass)
     weight = "fixed" if body.fixed else f"{body.mass:.4g} kg"
     return f"<{kind}: {body.name!r}, {weight}, at ({at})>"
+
+
+def planar(bodies: Iterable[Body | Solid]) -> list[Body]:
+    """Those of the plane: all of a planar scene."""
+    return [body for body in bodies if isinstance(body, Body)]
+
+
+def solids(bodies: Iterable[Body | Solid]) -> list[Solid]:
+    """Those in space: all of a scene in space."""
+    return [body for body in bodies if isinstance(body, Solid)]
 
 
 def snapshot(body: _core.Body | _core.Solid) -> Body | Solid:

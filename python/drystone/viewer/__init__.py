@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from functools import singledispatch
 from typing import TYPE_CHECKING
 
-from drystone.equilibrium.contact_force import CANONICAL
+from drystone.equilibrium.contact_force import CANONICAL, WhichForces
 from drystone.motion.run import Run
 from drystone.planning.answer import Plan
 from drystone.recording.of_plan import Progress, plan_recording
@@ -20,6 +20,7 @@ from drystone.recording.of_scene import scene_recording
 from drystone.recording.recording import FrameForces, Recording, Series
 from drystone.scene import Scene
 from drystone.viewer.page import Page
+from drystone.viewer.showing import show
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["FrameForces", "Page", "Recording", "Series", "plan_page", "run_page", "scene_page"]
 
 
-def plan_page(plan: Plan, progress: Progress | None = None, which: str = CANONICAL) -> Page:
+def plan_page(plan: Plan, progress: Progress | None = None, which: WhichForces = CANONICAL) -> Page:
     """The page of a plan: the order of removal, step by step, with contact forces.
 
     >>> import drystone as ds
@@ -99,10 +100,17 @@ def page_of(thing: object) -> Page:
     raise TypeError(f"there is no page of a {type(thing).__name__}")
 
 
+page_of.register(Page, lambda page: page)
 page_of.register(Scene, scene_page)
 page_of.register(Plan, plan_page)
 
 
-@page_of.register
+@page_of.register(Run)
 def _(run: Run) -> Page:
     return Page(recording_of_run(run))
+
+
+def show_thing(thing: object) -> None:
+    """Show its page, or its picture if it has none; see `drystone.viewer.showing`."""
+    known = page_of.dispatch(type(thing)) is not page_of.dispatch(object)
+    show(thing, page_of(thing) if known else None)

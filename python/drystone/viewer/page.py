@@ -12,6 +12,7 @@ from os import PathLike, fspath
 from pathlib import Path
 
 from drystone import _core
+from drystone.common import later
 from drystone.common.files import write_whole
 from drystone.recording import budget
 from drystone.recording.recording import Recording
@@ -52,6 +53,10 @@ class Page:
             raise ValueError(f"a page's name ends in .html, not {target.suffix or 'nothing'!r}")
         write_whole(target, self.html().encode())
 
+    def show(self) -> None:
+        """Show the page: below the cell of a notebook, from a script in the browser."""
+        later.show(self)
+
     def save_frames(
         self,
         folder: str | PathLike[str],
@@ -60,7 +65,8 @@ class Page:
     ) -> list[Path]:
         """Draw frames (all by default) as pictures frame-00000.png, ...; return their paths.
 
-        `suffix` is ".png" or ".svg". The folder is made if it is not there. All have the same view.
+        `suffix` is ".png", ".svg" or ".pdf". The folder is made if it is not there. All have
+        the same view.
         """
         from drystone import pictures
 

@@ -1,0 +1,220 @@
+"""What users of Python take for granted: errors by kind, types of options, names of files."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import math
+import os
+import re
+import stat
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any, get_args
+
+import pytest
+
+import drystone as ds
+from conftest import ROOT
+from drystone.common import choices, cones
+from drystone.common.cones import core_cones
+from drystone.meshes import objects
+
+SCENE = ds.scenes.column(4)
+
+WRONG_TYPES: dict[str, tuple[Callable[[], object], str]] = {
+    "a name for a scene": (lambda: ds.check("wall.json"), "Scene.load reads a file"),  # type: ignore[arg-type]
+    "nothing to plan": (lambda: ds.plan(None), "drystone.Scene"),  # type: ignore[arg-type]
+    "nothing to move": (lambda: ds.simulate(3), "drystone.Scene"),  # type: ignore[arg-type]
+    "no world": (lambda: ds.World("x"), "drystone.Scene"),  # type: ignore[arg-type]
+    "no limit": (lambda: ds.limit(3, gravity=(1, 0)), "drystone.Scene"),  # type: ignore[arg-type]
+    "no margin": (lambda: ds.margin(None), "drystone.Scene"),  # type: ignore[arg-type]
+    "no structure": (lambda: ds.Structure("x"), "drystone.Scene"),  # type: ignore[arg-type]
+    "blocks as one string": (lambda: ds.check(SCENE, "1"), "list of names"),
+    "limit of one string": (lambda: ds.limit(SCENE, gravity=(1, 0), blocks="1"), "list of names"),
+    "margin of one string": (lambda: ds.margin(SCENE, "1"), "list of names"),
+    "numbers for names": (lambda: ds.check(SCENE, [1]), "text"),  # type: ignore[list-item]
+    "a number for names": (lambda: ds.check(SCENE, 1), "list of names"),  # type: ignore[arg-type]
+    "a list for a name": (lambda: ds.Structure(SCENE).add(["1"]), "text"),  # type: ignore[arg-type]
+    "a number for a name": (
+        lambda: ds.Scene().add_box((0, 0), (1, 1), name=3),  # type: ignore[arg-type]
+        "text",
+    ),
+    "a number for a place": (lambda: ds.Scene().add_box(3, (1, 1)), "two numbers"),  # type: ignore[arg-type]
+    "text for a place": (lambda: ds.Scene().add_box("12", (1, 1)), "two numbers"),  # type: ignore[arg-type]
+    "a number for gravity": (lambda: ds.Scene(gravity=9.81), "two numbers"),  # type: ignore[arg-type]
+    "no vertices": (lambda: ds.Scene().add_polygon(None), "list of points"),  # type: ignore[arg-type]
+    "no pieces": (lambda: ds.Scene(3).add_solid(3), "list of points"),  # type: ignore[arg-type]
+    "text for a force": (lambda: SCENE.add_load("1", "ab"), "two numbers"),
+    "three for a moment": (lambda: SCENE.add_load("1", moment=(1, 2, 3)), "number"),
+    "a list for a push": (lambda: ds.limit(SCENE, [1, 2]), "dict"),  # type: ignore[arg-type]
+    "text for steps": (lambda: ds.simulate(SCENE, steps="9"), "steps"),  # type: ignore[arg-type]
+    "half a step": (lambda: ds.simulate(SCENE, steps=1.5), "steps"),  # type: ignore[arg-type]
+    "nothing for dt": (lambda: ds.simulate(SCENE, dt=None), "dt"),  # type: ignore[arg-type]
+    "text for hands": (lambda: ds.plan(SCENE, hold="1"), "hold"),  # type: ignore[arg-type]
+    "text for seconds": (lambda: ds.plan(SCENE, time_limit=[]), "time_limit"),  # type: ignore[arg-type]
+}
+
+
+@pytest.mark.parametrize("case", WRONG_TYPES)
+def test_a_wrong_type_is_a_type_error_that_says_what_is_wanted(case: str) -> None:
+    provoke, said = WRONG_TYPES[case]
+    with pytest.raises(TypeError, match=said):
+        provoke()
+
+
+MISSING: dict[str, Callable[[str], object]] = {
+    "a scene": ds.Scene.load,
+    "a run": ds.Run.load,
+    "a mesh": lambda path: ds.meshes.read_part(path + ".obj"),
+    "a mesh as a body": lambda path: ds.Scene(3).add_mesh(path + ".stl"),
+    "an assembly": lambda path: ds.imports.load(path + ".json"),
+    "a folder of parts": ds.imports.load,
+    "a folder to save in": lambda path: SCENE.save(f"{path}/scene.json"),
+    "a folder to draw in": lambda path: SCENE.draw(f"{path}/scene.svg"),
+}
+
+
+@pytest.mark.parametrize("what", MISSING)
+def test_what_is_missing_is_one_kind_of_error(what: str, tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError) as caught:
+        MISSING[what](str(tmp_path / "nothing"))
+    assert "nothing" in str(caught.value)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes of files")
+def test_files_have_the_mode_that_the_user_gives_new_files(tmp_path: Path) -> None:
+    before = os.umask(0o027)
+    try:
+        SCENE.save(tmp_path / "scene.json")
+        SCENE.draw(tmp_path / "scene.svg")
+        SCENE.view().save(tmp_path / "scene.html")
+        ds.simulate(SCENE, steps=2).save(tmp_path / "run.npz")
+        ds.check(SCENE).save(tmp_path / "verdict.json")
+    finally:
+        os.umask(before)
+    for path in tmp_path.iterdir():
+        assert stat.S_IMODE(path.stat().st_mode) == 0o640, path
+
+
+def test_tables_have_numbers_that_people_read() -> None:
+    """A block of 2e6 kg is told in meganewtons, and a search in microseconds."""
+    scene = ds.Scene()
+    scene.add_box((0, -0.5), (4, 1), name="ground", fixed=True)
+    scene.add_box((0, 0.5), (1, 1), name="block", density=2e6)
+    table = ds.check(scene).table()
+    assert "normal [MN]" in table
+    assert "9.81 " in table
+    assert re.search(r"[\d.]+ (µs|ms) in tests of [\d.]+ (µs|ms)\.", str(ds.plan(scene)))
+
+
+def test_an_angle_in_degrees_gets_a_hint() -> None:
+    with pytest.warns(UserWarning, match=r"angle is 45 radians.*math\.radians"):
+        ds.Scene().add_box((0, 0), (1, 1), angle=45)
+    ds.Scene().add_box((0, 0), (1, 1), angle=-math.tau)  # a full turn is none of these
+
+
+def _public() -> Iterator[tuple[str, ast.FunctionDef]]:
+    """Every function and method that users call."""
+    for path in sorted((ROOT / "python/drystone").rglob("*.py")):
+        if path.parent.name in ("cli", "paper", "common"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.ClassDef) and node.name in ds.__all__:
+                for inner in node.body:
+                    if isinstance(inner, ast.FunctionDef) and not inner.name.startswith("_"):
+                        yield f"{node.name}.{inner.name}", inner
+            elif isinstance(node, ast.FunctionDef) and node.name in ds.__all__:
+                yield node.name, node
+
+
+def test_public_signatures_say_their_types() -> None:
+    """`Any` says nothing; only what is to become JSON has values of any kind."""
+    found = dict(_public())
+    assert {"check", "plan", "Scene.body", "Run.save"} <= found.keys()
+    for name, function in found.items():
+        arguments = function.args
+        every = [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs]
+        written = [ast.unparse(a.annotation) for a in every if a.annotation is not None]
+        written += [ast.unparse(function.returns)] if function.returns else []
+        for text in written:
+            assert "Any" not in text.replace("dict[str, Any]", ""), f"{name}: {text}"
+
+
+def test_options_are_words_that_a_type_checker_knows() -> None:
+    for function, names in (
+        (ds.check, ["method", "cone", "forces"]),
+        (ds.limit, ["cone"]),
+        (ds.margin, ["cone", "loads"]),
+        (ds.plan, ["test", "cone"]),
+        (ds.plan_many, ["engine", "test"]),
+        (ds.simulate, ["reuse", "formulation", "cone"]),
+        (ds.World, ["reuse", "formulation", "cone"]),
+        (ds.Structure, ["cone"]),
+        (ds.imports.load, ["up", "split", "joints"]),
+    ):
+        for name in names:
+            parameter = inspect.signature(function).parameters[name]
+            words = eval(parameter.annotation, vars(sys.modules[function.__module__]))
+            known = [word for one in get_args(words) for word in get_args(one) or (one,)]
+            assert len(known) > 1, f"{function.__name__}: {name}"
+            assert parameter.default in [*known, None], f"{function.__name__}: {name}"
+    assert get_args(choices.Split) == objects.SPLITS
+    for word in get_args(cones.ConeOfCheck):
+        assert core_cones(8, word, get_args(cones.ConeOfCheck)) == (8, word)
+
+
+def test_python_dash_m() -> None:
+    command = [sys.executable, "-m", "drystone", "--version"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert ran.stdout.strip() == ds.__version__
+
+
+def _drystone(
+    *arguments: str, given: str = "", **environment: str
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "drystone", *arguments],
+        input=given,
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, **environment},
+    )
+
+
+def test_standard_input_and_output() -> None:
+    made = _drystone("scene", "wall:3,columns=4", "-o", "-")
+    assert ds.Scene.from_json(made.stdout).to_json() == ds.scenes.wall(3, 4).to_json()
+    checked = _drystone("check", "-", given=made.stdout)
+    assert (checked.returncode, checked.stderr) == (0, "")
+    assert checked.stdout.startswith("Stands: 13 blocks")
+    cut = _drystone("check", "-", given=made.stdout[:100])
+    assert cut.returncode == 2
+    assert cut.stderr.startswith("drystone: standard input: ")
+
+
+def test_parameters_behind_a_name_are_known_everywhere(cli: Callable[..., Any]) -> None:
+    assert ds.Scene.from_json(cli("scene", "wall:3,4").out).to_json() == (
+        ds.scenes.wall(3, 4).to_json()
+    )
+    wrong = cli("scene", "wall:rowz=3")
+    assert wrong.status == 2
+    assert "wall has no parameter 'rowz'" in wrong.err
+
+
+def test_a_shell_completes_commands_and_scenes() -> None:
+    """What bash asks when the tab key is pressed."""
+
+    def offered(line: str) -> list[str]:
+        asked = _drystone(
+            _DRYSTONE_COMPLETE="complete_bash",
+            COMP_WORDS=line,
+            COMP_CWORD=str(len(line.split()) - 1),
+        )
+        return asked.stdout.split()
+
+    assert offered("drystone che") == ["check"]
+    assert offered("drystone check random") == ["random_stack"]
