@@ -163,3 +163,13 @@ def find(tab: Tab, colour: str) -> tuple[float, float]:
     wanted = [int(colour[i : i + 2], 16) for i in (1, 3, 5)]
     ys, xs = np.nonzero(np.all(np.abs(picture - wanted) <= 2, axis=2))
     return float(np.mean(xs) / picture.shape[1]), float(np.mean(ys) / picture.shape[0])
+
+
+def plays_within_a_notebook(opened: Opener, page: Page) -> None:
+    """The notebook's frame, in a page of another, runs without touching what is around it."""
+    frame = page._repr_html_()
+    tab = opened(f'<!doctype html><main id="viewer" aria-busy="false">{frame}</main>')
+    inner = tab.frame_locator("iframe")
+    inner.locator(READY).wait_for()
+    inner.locator("#forward").click()
+    expect(inner.locator("#place")).to_have_text("Step 1 of 5")

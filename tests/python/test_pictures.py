@@ -43,21 +43,27 @@ def _texts(figure: Figure) -> list[str]:
 
 
 @pytest.mark.parametrize("suffix", ["svg", "png"])
-def test_files_are_written(tmp_path: Path, suffix: str) -> None:
-    scene = ds.scenes.five_blocks()
+@pytest.mark.parametrize("space", [False, True])
+def test_files_are_written(tmp_path: Path, suffix: str, space: bool) -> None:
+    def given(scene: ds.Scene) -> ds.Scene:
+        return scene.extruded(0.5) if space else scene
+
+    scene = given(ds.scenes.five_blocks())
     for name, drawn in {
         "scene": scene,
         "check": ds.check(scene),
         "falls": ds.check(scene, ["1", "3"]),
         "plan": ds.plan(scene),
-        "no plan": ds.plan(orderless(1)),
-        "whole falls": ds.plan(ds.scenes.diamond(5)),
+        "no plan": ds.plan(given(orderless(1))),
+        "whole falls": ds.plan(given(ds.scenes.diamond(5))),
     }.items():
         path = tmp_path / f"{name}.{suffix}"
         drawn.draw(path)
         data = path.read_bytes()
         assert len(data) > 2000
         assert data.startswith(b"<?xml" if suffix == "svg" else b"\x89PNG")
+        drawn.draw(tmp_path / f"again.{suffix}")
+        assert (tmp_path / f"again.{suffix}").read_bytes() == data, "the same every time"
 
 
 def test_a_png_has_more_than_one_colour(tmp_path: Path) -> None:

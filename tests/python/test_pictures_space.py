@@ -14,7 +14,7 @@ from matplotlib.patches import FancyArrow
 
 import drystone as ds
 from by_hand import box, solids
-from conftest import Ran, orderless
+from conftest import Ran
 from drystone import pictures
 from drystone.pictures import style
 from drystone.pictures.axonometry import View, box_of, far_to_near, pieces_of, rotation
@@ -151,26 +151,6 @@ def test_arrows_are_to_scale_as_far_as_they_are_seen() -> None:
     assert shown == pytest.approx(float(key.get_text().split()[0]) / 4.0)
     ups = [arrow.get_xy()[:, 1].max() > 0.1 for arrow in arrows[:3]]
     assert all(ups), "each as it acts on what is carried"
-
-
-@pytest.mark.parametrize("suffix", ["svg", "png"])
-def test_files_are_written(tmp_path: Path, suffix: str) -> None:
-    scene = ds.scenes.five_blocks().extruded(0.5)
-    for name, drawn in {
-        "scene": scene,
-        "check": ds.check(scene),
-        "falls": ds.check(scene, ["1", "3"]),
-        "plan": ds.plan(scene),
-        "no plan": ds.plan(orderless(1).extruded()),
-        "whole falls": ds.plan(ds.scenes.diamond(3).extruded()),
-    }.items():
-        path = tmp_path / f"{name}.{suffix}"
-        drawn.draw(path)
-        data = path.read_bytes()
-        assert len(data) > 2000
-        assert data.startswith(b"<?xml" if suffix == "svg" else b"\x89PNG")
-        drawn.draw(tmp_path / f"again.{suffix}")
-        assert (tmp_path / f"again.{suffix}").read_bytes() == data, "the same every time"
 
 
 def test_what_falls_is_red_and_says_where_it_goes() -> None:

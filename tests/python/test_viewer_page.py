@@ -9,7 +9,18 @@ from playwright.sync_api import expect
 import drystone as ds
 from conftest import orderless
 from drystone.viewer import FrameForces, Page, run_page
-from tab import LIGHT, READY, Opener, count, find, hover, pixels, press, says, settle
+from tab import (
+    LIGHT,
+    Opener,
+    count,
+    find,
+    hover,
+    pixels,
+    plays_within_a_notebook,
+    press,
+    says,
+    settle,
+)
 
 
 @pytest.fixture(scope="module")
@@ -326,13 +337,7 @@ def test_what_does_not_stand_is_shown_falling(opened: Opener) -> None:
 
 
 def test_within_a_notebook(opened: Opener, plan: ds.Plan) -> None:
-    """The notebook's frame, in a page of another: it runs without touching what is around it."""
-    frame = plan.view()._repr_html_()
-    tab = opened(f'<!doctype html><main id="viewer" aria-busy="false">{frame}</main>')
-    inner = tab.frame_locator("iframe")
-    inner.locator(READY).wait_for()
-    inner.locator("#forward").click()
-    expect(inner.locator("#place")).to_have_text("Step 1 of 5")
+    plays_within_a_notebook(opened, plan.view())
 
 
 def test_damage_is_said_in_one_line(opened: Opener, plan: ds.Plan) -> None:

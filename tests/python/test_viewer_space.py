@@ -15,7 +15,7 @@ from playwright.sync_api import Browser, Playwright, expect
 
 from by_hand import plan_by_hand, run_by_hand
 from drystone.viewer import Page
-from tab import READY, Opener, Tab, hover, launched, pixels, press, says
+from tab import Opener, Tab, hover, launched, pixels, plays_within_a_notebook, press, says
 
 
 @pytest.fixture(scope="module")
@@ -304,12 +304,7 @@ def test_narrow_windows(opened: Opener) -> None:
 
 
 def test_within_a_notebook(opened: Opener) -> None:
-    frame = Page(plan_by_hand())._repr_html_()
-    tab = opened(f'<!doctype html><main id="viewer" aria-busy="false">{frame}</main>')
-    inner = tab.frame_locator("iframe")
-    inner.locator(READY).wait_for()
-    inner.locator("#forward").click()
-    expect(inner.locator("#place")).to_have_text("Step 1 of 5")
+    plays_within_a_notebook(opened, Page(plan_by_hand()))
 
 
 def test_the_page_loads_nothing_and_runs_no_other_script() -> None:
