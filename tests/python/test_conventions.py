@@ -72,6 +72,7 @@ MISSING: dict[str, Callable[[str], object]] = {
     "a mesh as a body": lambda path: ds.Scene(3).add_mesh(path + ".stl"),
     "an assembly": lambda path: ds.imports.load(path + ".json"),
     "a folder of parts": ds.imports.load,
+    "scenes to plan": ds.plan_many,
     "a folder to save in": lambda path: SCENE.save(f"{path}/scene.json"),
     "a folder to draw in": lambda path: SCENE.draw(f"{path}/scene.svg"),
 }

@@ -47,10 +47,11 @@ class Job:
 def jobs_of(scenes: Scenes) -> tuple[Iterator[Job], int | None]:
     """The jobs, read one by one as they are asked for, and their number if it is known.
 
-    Raises OSError for a folder that cannot be read, ValueError for one without scene files.
+    Raises OSError for a file or folder that cannot be read, ValueError for one without scene files.
     """
     if isinstance(scenes, (str, PathLike)):
         path = Path(scenes)
+        path.stat()  # the OSError, if it is not there
         files: list[OneScene] = list(_files(path)) if path.is_dir() else [path]
         return map(_job, files), len(files)
     if isinstance(scenes, Mapping):
