@@ -63,7 +63,8 @@ def check(
     forces: Annotated[
         WhichForces | None,
         typer.Option(
-            help="Of least norm (by default, up to 20,000 contact points), or those found first."
+            help="Which of many possible forces: those of least norm (the default up to 20,000 "
+            "contact points), or any, which takes less time."
         ),
     ] = None,
 ) -> int:
@@ -80,12 +81,12 @@ def limit(
         list[str] | None,
         typer.Option(
             metavar="BLOCK:FX,FY[,M]",
-            help="A force on a block, N, and a moment behind it, N m; to be repeated. "
+            help="Push a block with this force, N, and moment, N m. May be repeated. "
             "In space BLOCK:FX,FY,FZ[,MX,MY,MZ].",
         ),
     ] = None,
     gravity: Annotated[
-        str | None, typer.Option(metavar="X,Y[,Z]", help="Added to gravity, m/s².")
+        str | None, typer.Option(metavar="X,Y[,Z]", help="An acceleration added to gravity, m/s².")
     ] = None,
     blocks: Blocks = None,
     block: Block = None,
@@ -107,10 +108,12 @@ def margin(
     block: Block = None,
     loads: Annotated[
         LoadsUnder,
-        typer.Option(help="Permanent loads keep their direction, or turn as weights do."),
+        typer.Option(
+            help="Whether permanent loads stay as they are, or turn and accelerate as weights do."
+        ),
     ] = "stay",
     tolerance: Annotated[
-        float, typer.Option(help="In space: how far the boundary may be off, of g.")
+        float, typer.Option(help="In space: how exact the answer has to be, in parts of g.")
     ] = 1e-3,
     as_json: AsJson = False,
     output: Picture = None,
@@ -126,23 +129,30 @@ def margin(
 @app.command()
 def plan(
     scene: File,
-    test: Annotated[StabilityTest, typer.Option(help="How sub-assemblies are tested.")] = "reuse",
-    node_limit: Annotated[int | None, typer.Option(min=0, help="At most so many tests.")] = None,
+    test: Annotated[
+        StabilityTest, typer.Option(help="How to decide whether a structure stands.")
+    ] = "reuse",
+    node_limit: Annotated[int | None, typer.Option(min=0, help="Stop after so many tests.")] = None,
     time_limit: Annotated[
-        float | None, typer.Option(min=0.0, help="At most so many seconds.")
+        float | None, typer.Option(min=0.0, help="Stop after so many seconds.")
     ] = None,
     shortcuts: Annotated[
-        bool, typer.Option(help="Let a collapse answer later tests; off, as in the paper.")
+        bool, typer.Option(help="Learn from each collapse, and leave out what must fall too.")
     ] = True,
     threads: Annotated[
-        int | None, typer.Option(min=1, help="Threads for one scene; one a core.")
+        int | None, typer.Option(min=1, help="Threads for one scene; by default one for each core.")
     ] = None,
     hold: Annotated[
         int,
-        typer.Option(min=0, max=8, help="Where there is no order: hold so many blocks at a time."),
+        typer.Option(
+            min=0, max=8, help="Blocks that may be held at a time if there is no order without."
+        ),
     ] = 0,
     clear_path: Annotated[
-        bool, typer.Option("--clear-path", help="Blocks have to leave along a straight line.")
+        bool,
+        typer.Option(
+            "--clear-path", help="Every block must be able to leave along a straight line."
+        ),
     ] = False,
     facets: Facets = 8,
     cone: Pyramid = "inscribed",
@@ -152,24 +162,29 @@ def plan(
         typer.Option(
             "-o",
             "--output",
-            help="Write a picture, .svg, .pdf or .png, a page to step through, .html, or a film, "
-            ".gif or .mp4; the plans of a folder.",
+            help="Write a picture (.svg, .pdf, .png), a page to step through (.html) or a film "
+            "(.gif, .mp4). For a folder of scenes: where its plans are kept.",
         ),
     ] = None,
     engine: Annotated[
         EngineName | None, typer.Option(help="For a folder: where its scenes are planned.")
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="For a folder: so many at a time; one a core.")
+        int | None,
+        typer.Option(
+            min=1, help="For a folder: how many scenes at a time; by default one for each core."
+        ),
     ] = None,
     address: Annotated[
         str | None,
-        typer.Option(help="With --engine ray: the cluster, [bold]auto[/] for the one here."),
+        typer.Option(
+            help="With --engine ray: the cluster; [bold]auto[/]: the one on this machine."
+        ),
     ] = None,
 ) -> int:
     """In which order can it be taken apart so that it never collapses?
 
-    SCENE may be a folder of scene files: each is planned; what is finished is not repeated.
+    SCENE may be a folder of scene files. Each of them is planned; what is finished is not repeated.
     """
     if Path(scene).is_dir():
         from drystone.cli import plan_many
@@ -214,16 +229,17 @@ def plan(
 def simulate(
     scene: File,
     dt: Annotated[float, typer.Option(help="Length of a step, seconds.")] = 1 / 240,
-    steps: Annotated[int, typer.Option(min=0, help="So many steps.")] = 1200,
+    steps: Annotated[int, typer.Option(min=0, help="How many steps.")] = 1200,
     reuse: Annotated[
-        Reuse, typer.Option(help="What a step takes over from the one before.")
+        Reuse,
+        typer.Option(help="What a step takes over from the one before. The motion is the same."),
     ] = "full",
     restitution: Annotated[
-        float, typer.Option(help="Share of the speed with which colliding blocks part, 0 to 1.")
+        float, typer.Option(help="With which share of their speed colliding blocks part, 0 to 1.")
     ] = 0.0,
     formulation: Annotated[
         Formulation,
-        typer.Option(help="Impulses and velocities, or forces and accelerations (Baraff's)."),
+        typer.Option(help="Solve for impulses and velocities, or for forces and accelerations."),
     ] = "velocity",
     facets: Facets = 8,
     cone: Pyramid = "inscribed",
@@ -236,8 +252,8 @@ def simulate(
         typer.Option(
             "-o",
             "--output",
-            help="Write the run, .npz, a page that plays it, .html, a film, .gif or .mp4, or a "
-            "picture of its end, .svg, .pdf or .png.",
+            help="Write the run (.npz), a page that plays it (.html), a film (.gif, .mp4) or a "
+            "picture of its end (.svg, .pdf, .png).",
         ),
     ] = None,
 ) -> int:
@@ -274,21 +290,25 @@ def import_(
         typer.Option("-o", "--output", help="The scene file to write; - for standard output."),
     ] = None,
     scale: Annotated[
-        float, typer.Option(help="Metres in the file's unit of length: 0.001 for millimetres.")
+        float,
+        typer.Option(help="How many metres the file's unit of length has: 0.001 for millimetres."),
     ] = 1.0,
     up: Annotated[Up, typer.Option(help="The axis that points up in the file.")] = "z",
-    friction: Annotated[float, typer.Option(help="For bodies without their own.")] = 0.5,
+    friction: Annotated[
+        float, typer.Option(help="Coefficient of friction of bodies without their own.")
+    ] = 0.5,
     density: Annotated[
-        float | None, typer.Option(help="kg/m³, instead of the file's; 1000 if it has none.")
+        float | None, typer.Option(help="Density of all bodies, kg/m³; else the file's, or 1000.")
     ] = None,
     gravity: Annotated[
-        str | None, typer.Option(help="x,y,z in m/s²; 0,0,-9.81 if the file has none.")
+        str | None, typer.Option(help="Gravity as x,y,z in m/s²; else the file's, or 0,0,-9.81.")
     ] = None,
     fixed: Annotated[
         str | None, typer.Option(help="Bodies that never move, names separated by commas.")
     ] = None,
     fix: Annotated[
-        list[str] | None, typer.Option(help="One of them, its name as it is; to be repeated.")
+        list[str] | None,
+        typer.Option(help="The same for one name, which may hold commas; may be repeated."),
     ] = None,
     ground: Annotated[
         bool, typer.Option("--ground", help="Lay a fixed box under everything.")
@@ -296,38 +316,41 @@ def import_(
     tolerance: Annotated[
         str | None,
         typer.Option(
-            help="Metres that bodies may be apart or overlap and still touch, or auto: as "
-            "little as lets none overlap."
+            help="How far bodies may be apart, or overlap, and still touch, metres; auto: the "
+            "least with which none overlap."
         ),
     ] = None,
     max_pieces: Annotated[
         int | None,
-        typer.Option(min=1, help="Convex pieces only, and at most so many a body."),
+        typer.Option(min=1, help="Take convex pieces only, at most so many for each body."),
     ] = None,
     surface: Annotated[
         bool | None,
         typer.Option(
             "--surface/--pieces",
-            help="Take all meshes as surfaces, or as convex pieces (256 at most); by default as "
-            "surfaces where they are curved or fall into many pieces.",
+            help="Keep all meshes as surfaces, or cut all into convex pieces (256 at most). By "
+            "default only curved ones, and those of many pieces, are kept as surfaces.",
         ),
     ] = None,
     simplify: Annotated[
         float | None,
-        typer.Option(help="Metres that surfaces of scanned meshes may move, to make them simple."),
+        typer.Option(help="Simplify scanned meshes: how far a surface may move, metres."),
     ] = None,
     split: Annotated[
         Split | None,
         typer.Option(
-            help="What of a mesh file becomes a body: its objects (if it has none, its groups), "
-            "its groups, or all of it as one (none)."
+            help="What becomes a body: each object of a mesh file (each group if it has no "
+            "objects), each group, or the whole file (none)."
         ),
     ] = None,
-    hull: Annotated[bool, typer.Option("--hull", help="Take the convex hulls of meshes.")] = False,
+    hull: Annotated[
+        bool, typer.Option("--hull", help="Take the convex hull of each mesh.")
+    ] = False,
     joints: Annotated[
         Joints,
         typer.Option(
-            help="Joints of MJCF and URDF that turn or slide: an error, or welded (fixed)."
+            help="What to do with joints that turn or slide (MJCF, URDF): stop with an error, or "
+            "weld them (fixed)."
         ),
     ] = "error",
     as_json: AsJson = False,
@@ -377,10 +400,10 @@ def paper(
 def methods(
     scenes: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[SCENE]...", help="Scenes; else the paper's structures."),
+        typer.Argument(metavar="[SCENE]...", help="Scenes; by default the paper's structures."),
     ] = None,
     repeats: Annotated[
-        int, typer.Option(min=1, help="Repetitions of what takes under a second; the least counts.")
+        int, typer.Option(min=1, help="Repeat what takes under a second; the least time counts.")
     ] = 5,
     as_json: AsJson = False,
     output: Annotated[

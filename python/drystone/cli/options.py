@@ -23,19 +23,28 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of a ta
 Picture = Annotated[
     Path | None, typer.Option("-o", "--output", help="Write a picture, .svg, .pdf or .png.")
 ]
-Blocks = Annotated[str | None, typer.Option(help="Only these blocks, names separated by commas.")]
-Block = Annotated[
-    list[str] | None, typer.Option(help="One of them, its name as it is; to be repeated.")
+Blocks = Annotated[
+    str | None, typer.Option(help="Ask about these blocks only: names separated by commas.")
 ]
-Facets = Annotated[int, typer.Option(min=3, help="In space: edges of a friction cone.")]
+Block = Annotated[
+    list[str] | None,
+    typer.Option(help="The same for one name, which may hold commas; may be repeated."),
+]
+Facets = Annotated[
+    int, typer.Option(min=3, help="In space: edges of the pyramids that stand for friction cones.")
+]
 ConeOfCheck = Annotated[
     cones.ConeOfCheck,
-    typer.Option(help="In space: Coulomb's round cones, or pyramids within, around, or both."),
+    typer.Option(
+        help="In space: round friction cones (exact), or pyramids within them, around them, or "
+        "both."
+    ),
 ]
 Cone = Annotated[
     cones.Cone,
-    typer.Option(help="In space: Coulomb's round cones, or pyramids within or around."),
+    typer.Option(help="In space: round friction cones (exact), or pyramids within or around them."),
 ]
 Pyramid = Annotated[
-    cones.Pyramid, typer.Option(help="In space: cones within or around the round ones.")
+    cones.Pyramid,
+    typer.Option(help="In space: pyramids within or around the round friction cones."),
 ]
