@@ -5,6 +5,7 @@ mod takedown;
 
 use crate::{
     contact::Contact,
+    crossover::or_from_interior,
     equilibrium::{Effort, accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
     error::SceneError,
     formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, FrictionCone, Moving},
@@ -208,7 +209,7 @@ fn complementarity_while(
         (None, Status::Solved) => judge(assembly, blocks, &moving),
         (None, _) => Judgement::by_equilibrium(assembly, blocks),
     };
-    Some(match judgement {
+    Some(match or_from_interior(judgement, assembly, blocks) {
         Judgement::Stands => found,
         Judgement::Falls => Verdict { stable: false, ..found },
         Judgement::ByEquilibrium(Membership::Outside, equilibrium) => fallen(found, &equilibrium),

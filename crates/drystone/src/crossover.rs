@@ -8,6 +8,7 @@
 
 use crate::{
     formulate::{Assembly, BlockSet, Components, Constrained},
+    judgement::Judgement,
     proof::moving,
 };
 use drystone_lcp::{
@@ -33,6 +34,17 @@ pub(crate) fn from_interior(assembly: &Assembly, blocks: &BlockSet) -> (Membersh
         }
     }
     (solver.solve(), solver)
+}
+
+/// A judgement, from the interior-point method where pivots from nothing have no answer: another way up, to another basis.
+pub(crate) fn or_from_interior(judgement: Judgement, assembly: &Assembly, blocks: &BlockSet) -> Judgement {
+    match judgement {
+        Judgement::ByEquilibrium(Membership::PivotLimit | Membership::NumericalTrouble, _) => {
+            let (found, solver) = from_interior(assembly, blocks);
+            Judgement::ByEquilibrium(found, Box::new(solver))
+        }
+        answered => answered,
+    }
 }
 
 /// The multipliers `y = -a` of a motion: by (row, value).

@@ -30,6 +30,8 @@ const GENERATOR: usize = 200;
 pub struct Assembly {
     bodies: Vec<Part>,
     gravity: [f64; 3],
+    /// The acceleration under which masses are weights, m/s^2: that of gravity, or 1 without any.
+    weighing: f64,
     cones: Cones,
     /// Components of a block's wrench: three in the plane, six in space.
     components: &'static [usize],
@@ -76,6 +78,7 @@ impl Assembly {
         };
         let assembly = Self {
             gravity,
+            weighing: 1.0,
             cones,
             components,
             contacts: S::contacts(scene)?,
@@ -113,9 +116,10 @@ impl Assembly {
         alone
     }
 
+    /// Weighs the blocks with their loads.
     fn weighed(mut self) -> Self {
-        let unit = self.weighing();
-        let burden = |&body: &usize| self.bodies[body].mass + self.bodies[body].load_size() / unit;
+        self.weighing = Some(length(self.gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
+        let burden = |&body: &usize| self.bodies[body].mass + self.bodies[body].load_size() / self.weighing;
         self.heaviest = self.movable.iter().map(burden).fold(0.0, f64::max);
         self
     }
@@ -315,18 +319,14 @@ impl Assembly {
     /// The acceleration that a block's own loads give it, weight and others, m/s^2: without gravity the weight is that under
     /// 1 m/s^2.
     pub(crate) fn unit_of_acceleration(&self, block: usize) -> f64 {
-        self.weighing() + self.body(block).load_size() * self.inverse_mass(block)[0]
-    }
-
-    fn weighing(&self) -> f64 {
-        Some(length(self.gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0)
+        self.weighing + self.body(block).load_size() * self.inverse_mass(block)[0]
     }
 
     /// In which the imbalance of a block is measured: its load for forces, its load times the radius of gyration for
     /// moments.
     pub(crate) fn balance_unit(&self, block: usize) -> impl Iterator<Item = f64> + '_ {
         let inverse = self.inverse_mass(block);
-        let weight = self.weighing() / inverse[0] + self.body(block).load_size();
+        let weight = self.weighing / inverse[0] + self.body(block).load_size();
         self.components.iter().zip(inverse).map(move |(&k, per_inertia)| match k {
             0..3 => weight,
             _ => weight * (inverse[0] / per_inertia).sqrt(),
@@ -336,7 +336,10 @@ impl Assembly {
     /// The unit of every row of [`Self::equilibrium`]: the block's own load, but for blocks so light beside the heaviest that
     /// pivots on a heavy block's rows would be lost in rounding.
     pub(super) fn balance_units(&self) -> Vec<f64> {
-        let of = |block| self.balance_unit(block).map(move |own| own / self.own_load(block));
+        let of = |block| {
+            let load = self.own_load(block);
+            self.balance_unit(block).map(move |own| own / load)
+        };
         (0..self.blocks()).flat_map(of).collect()
     }
 
@@ -349,8 +352,8 @@ impl Assembly {
     /// A block's load in the unit of its rows: one, or less where a block weighs 1e8 times as much.
     fn own_load(&self, block: usize) -> f64 {
         const LIGHTEST: f64 = 1e-8;
-        let mass = |block: usize| self.inverse_mass(block)[0].recip() + self.body(block).load_size() / self.weighing();
-        (mass(block) / (LIGHTEST * self.heaviest)).min(1.0)
+        let mass = self.inverse_mass(block)[0].recip() + self.body(block).load_size() / self.weighing;
+        (mass / (LIGHTEST * self.heaviest)).min(1.0)
     }
 
     /// The column of [`Self::equilibrium`] of a contact's axis, if it has one.

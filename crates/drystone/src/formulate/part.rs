@@ -159,6 +159,9 @@ impl Part {
 
     /// The size of the permanent loads, N: moments count by the force at the radius of gyration that gives them.
     pub fn load_size(&self) -> f64 {
+        if self.load == [0.0; 6] {
+            return 0.0; // most have none
+        }
         let [x, y, z, turning @ ..] = self.load;
         let moments =
             turning.iter().zip(self.inertia).map(|(moment, inertia)| moment.abs() * (self.mass / inertia).sqrt());

@@ -2,6 +2,7 @@
 
 use super::collapse::Collapse;
 use crate::{
+    crossover::or_from_interior,
     equilibrium::collapse_motion,
     error::SceneError,
     formulate::{Assembly, BlockSet, Components},
@@ -140,6 +141,7 @@ pub(super) fn solve_by(
         Status::Solved => judge(assembly, blocks, &moving),
         _ => Judgement::by_equilibrium(assembly, blocks),
     };
+    let judgement = or_from_interior(judgement, assembly, blocks);
     let outcome = TestOutcome::of(judgement.found(), solver.counts().pivots - before)
         .ok_or_else(|| no_answer(format!("{} (residual {:.1e})", status.name(), solver.residual())))?;
     let collapse = match judgement {
