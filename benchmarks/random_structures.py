@@ -9,9 +9,9 @@ mass and time, turned with its gravity, moved and listed in another order. Count
   own numbers do not prove it in rational arithmetic (structures/proofs.py), or different verdicts
   or falling blocks for the same structure seen in another way, or by `Structure`, or by the
   complementarity problem (method "lcp").
-- facets: comparisons of falling blocks in space left out, since the lists differ with 8 edges for
-  each friction cone and agree with 64 (FINE): on a level contact the edges stay with the world's
-  axes, not with the structure when it is turned, and another pyramid is another problem.
+- facets: comparisons of falling blocks in space left out, since the lists differ with pyramids of
+  8 edges and agree with the round friction cones: on a level contact the edges stay with the
+  axes of the world, not with the structure when it is turned: another pyramid, another problem.
 - virtual: comparisons of falling blocks left out, since one side knows that it falls but not how it
   begins to (`Verdict.virtual_motion`).
 - open: borderline, or without an answer.
@@ -34,9 +34,6 @@ from rich.table import Table
 import drystone as ds
 from structures.families import Seen, Structure, families, named, scene_of, seen_at_random
 from structures.proofs import proves
-
-FINE = 64
-"""Edges of a friction cone that is nearly round: within 0.1 % of it."""
 
 
 @dataclass
@@ -94,7 +91,7 @@ def judge(structure: Structure, rng: np.random.Generator, tally: Tally, key: str
             tally.virtual += 1
         elif set(other.falling) == set(verdict.falling):
             continue
-        elif structure.dimension == 3 and structure.friction > 0 and agree_if_fine(scene, seen):
+        elif structure.dimension == 3 and structure.friction > 0 and agree_if_round(scene, seen):
             tally.facets += 1
         else:
             wrong(f"other falling blocks, {place}", f"{set(other.falling) ^ set(verdict.falling)}")
@@ -122,9 +119,9 @@ def judge(structure: Structure, rng: np.random.Generator, tally: Tally, key: str
         wrong("lcp, other falling blocks", f"{set(lcp.falling) ^ set(verdict.falling)}")
 
 
-def agree_if_fine(scene: ds.Scene, seen: ds.Scene) -> bool:
-    """Whether the same blocks fall in both with nearly round friction cones."""
-    one, other = (ds.check(s, cone="inscribed", facets=FINE) for s in (scene, seen))
+def agree_if_round(scene: ds.Scene, seen: ds.Scene) -> bool:
+    """Whether the same blocks fall in both with round friction cones, which turn along."""
+    one, other = (ds.check(s, cone="round") for s in (scene, seen))
     return one.status == other.status == "solved" and set(one.falling) == set(other.falling)
 
 

@@ -113,6 +113,14 @@ pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
 /// Most rows for which the complementarity problem tells the accelerations of what falls sooner than the interior-point method.
 const FEW: usize = 200;
 
+/// The same where blocks differ so widely that accelerations are refined to more than 64 bits, which takes a basis: the pivots
+/// for as many rows take a second or two.
+const FEW_IF_WIDE: usize = 2_000;
+
+fn few(assembly: &Assembly) -> usize {
+    if assembly.is_wide() { FEW_IF_WIDE } else { FEW }
+}
+
 /// Blocks in space from which on what bears by straight pressure is looked for first: a small part of the pivots' time then, and
 /// where it is found they are saved, with the columns of all generators.
 const LARGE: usize = 500;
@@ -164,8 +172,7 @@ pub(crate) fn by_equilibrium(
             Some(if falls { moved } else { held(assembly, blocks, equilibrium, spent) })
         }
         Membership::Outside => {
-            let many = assembly.rows(blocks).len() > FEW;
-            let moved = match many {
+            let moved = match assembly.rows(blocks).len() > few(assembly) {
                 true => Some(interior::by_interior_point(assembly, blocks, FrictionCone::Pyramid, spent, go_on)?),
                 false => None,
             };

@@ -13,7 +13,6 @@
 use crate::{
     equilibrium::equilibrium_of,
     formulate::{Assembly, BlockSet, Components, Moving},
-    geometry::length,
 };
 use drystone_lcp::cone::{ConeSolver, Membership};
 
@@ -114,9 +113,8 @@ pub(crate) fn proves_fall(
     closing_share: f64,
 ) -> bool {
     let components = assembly.components();
-    let of = |block: usize| moving.binary_search_by_key(&block, |moving| moving.0).ok().map(|place| &moving[place].1);
-    let fastest = moving.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(speed(assembly, *block, a)));
-    let (mut power, mut bound, mut closing, mut largest) = (0.0, 0.0, 0.0_f64, 0.0_f64);
+    let fastest = moving.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(assembly.speed(*block, a)));
+    let (mut power, mut bound, mut closing) = (0.0, 0.0, 0.0_f64);
     for (block, acceleration) in moving {
         for (&k, load) in components.iter().zip(assembly.applied(*block)) {
             power += load * acceleration[k];
@@ -124,16 +122,8 @@ pub(crate) fn proves_fall(
         }
     }
     for j in assembly.rows(blocks) {
-        let (mut opening, mut size) = (0.0, 0.0);
-        for wrench in assembly.wrenches(&assembly.generators()[j]) {
-            let Some(acceleration) = of(wrench.block) else { continue };
-            for &k in components {
-                opening += wrench.value[k] * acceleration[k];
-                size += (wrench.value[k] * acceleration[k]).abs();
-            }
-        }
+        let (opening, size) = assembly.opening(&assembly.generators()[j], moving);
         closing = closing.max(-opening);
-        largest = largest.max(forces[j]);
         bound += ROUNDING * forces[j].max(0.0) * size;
     }
     closing <= closing_share * fastest && power > MARGIN * bound
@@ -142,10 +132,5 @@ pub(crate) fn proves_fall(
 /// Largest acceleration of a point of a block, as a share of what its own loads give it: of gravity where it has no others, of
 /// 1 m/s^2 where it has none.
 pub(crate) fn severity(assembly: &Assembly, block: usize, acceleration: &Components) -> f64 {
-    speed(assembly, block, acceleration) / assembly.unit_of_acceleration(block)
-}
-
-/// Of the fastest point of a block, or a little less.
-pub(crate) fn speed(assembly: &Assembly, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
-    length([x, y, z]).max(length(*turning) * assembly.body(block).radius)
+    assembly.speed(block, acceleration) / assembly.unit_of_acceleration(block)
 }

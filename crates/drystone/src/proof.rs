@@ -4,7 +4,7 @@ use crate::{
     contact::Contact,
     formulate::{Assembly, BlockSet, Components, ContactForce, FrictionCone},
     geometry::{cross, dot, length, minus},
-    judgement::{CLOSING, ROUNDING, at_rest_under, severity, speed},
+    judgement::{CLOSING, ROUNDING, at_rest_under, severity},
 };
 
 /// Accelerations of blocks under contact forces, ascending.
@@ -65,7 +65,7 @@ pub(crate) fn power_of_fall(
 ) -> f64 {
     let mut of = vec![None; assembly.blocks()];
     accelerations.iter().for_each(|(block, acceleration)| of[*block] = Some(acceleration));
-    let fastest = accelerations.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(speed(assembly, *block, a)));
+    let fastest = accelerations.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(assembly.speed(*block, a)));
     let (mut power, mut bound) = (0.0, 0.0);
     for (block, acceleration) in accelerations {
         for (&k, load) in assembly.components().iter().zip(assembly.applied(*block)) {
@@ -94,7 +94,7 @@ pub(crate) fn closing(
 ) -> f64 {
     let mut of = vec![None; assembly.blocks()];
     motion.iter().for_each(|(block, velocity)| of[*block] = Some(velocity));
-    let fastest = motion.iter().fold(0.0_f64, |fastest, (block, v)| fastest.max(speed(assembly, *block, v)));
+    let fastest = motion.iter().fold(0.0_f64, |fastest, (block, v)| fastest.max(assembly.speed(*block, v)));
     let closes = |force: &ContactForce| {
         let contact = &assembly.contacts()[force.contact];
         -opening(assembly, contact, relative_motion(assembly, contact, &of).0, cone)

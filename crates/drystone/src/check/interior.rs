@@ -1,6 +1,6 @@
 //! Verdicts by the interior-point method: forces, or the accelerations of what falls, proved by what shares nothing with it.
 
-use super::{GoOn, Verdict, by_equilibrium};
+use super::{GoOn, Verdict, by_equilibrium, complementarity_while, few};
 use crate::{
     crossover::from_interior,
     formulate::{Assembly, BlockSet, Components, Constrained, ContactForce, FrictionCone},
@@ -20,7 +20,8 @@ pub(super) fn check(
 ) -> Option<Verdict> {
     let found = by_interior_point(assembly, blocks, cone, spent, go_on)?;
     if found.status == Status::Solved {
-        return Some(found);
+        let refines = !found.stable && !assembly.is_round(cone) && assembly.is_wide();
+        return if refines { refined(assembly, blocks, found, go_on) } else { Some(found) };
     }
     let within = by_pyramids(assembly, blocks, spent, go_on)?;
     if within.stable || !assembly.is_round(cone) {
@@ -29,6 +30,16 @@ pub(super) fn check(
     let around = by_pyramids(&assembly.circumscribed(), blocks, within.counts, go_on)?;
     let falls = around.status == Status::Solved && !around.stable;
     Some(if falls { around } else { Verdict { counts: around.counts, ..found } })
+}
+
+/// The same fall with accelerations to more than 64 bits, from a basis, where that takes no more than some seconds.
+fn refined(assembly: &Assembly, blocks: &BlockSet, found: Verdict, go_on: &mut GoOn<'_>) -> Option<Verdict> {
+    if assembly.rows(blocks).len() > few(assembly) {
+        return Some(found);
+    }
+    let moved = complementarity_while(assembly, blocks, None, found.counts, go_on)?;
+    let falls = moved.status == Status::Solved && !moved.stable && !moved.virtual_motion;
+    Some(if falls { Verdict { iterations: found.iterations, ..moved } } else { found })
 }
 
 fn by_pyramids(assembly: &Assembly, blocks: &BlockSet, spent: Counts, go_on: &mut GoOn<'_>) -> Option<Verdict> {

@@ -9,9 +9,11 @@
 //! ```
 //!
 //! This is the Karush-Kuhn-Tucker system of Gauss's principle on the active set; the columns of G in it are independent, for a
-//! pivoting method keeps a basis.
+//! pivoting method keeps a basis. Where 64 bits chose that set wrongly, a force in it pulls or another contact closes: the
+//! first leaves it or the second joins it, which keeps its columns independent (one that closes is no sum of those that do not).
 
 use super::{Assembly, BlockSet, Components, generator::Generator};
+use crate::geometry::length;
 use drystone_lcp::refined::Square;
 
 /// The heaviest block over the lightest from which on forces alone do not tell the accelerations: 64-bit numbers leave 1e-11
@@ -20,6 +22,13 @@ const WIDE: f64 = 1e5;
 
 /// A force below zero by no more than this share of the weight of the lighter block it acts on is none.
 const NONE: f64 = 1e-10;
+
+/// A contact that closes by less than this share of the fastest, and of the terms of its own speed, does not: rounding.
+const CLOSING: f64 = 1e-12;
+const CLOSING_OF_TERMS: f64 = 1e-12;
+
+/// Changes of the active set at most: it is right but for some contacts that 64 bits do not tell.
+const CHANGES: usize = 50;
 
 /// Forces and the accelerations under them.
 pub(crate) struct Moving {
@@ -44,17 +53,87 @@ impl Assembly {
         Moving { forces, motion }
     }
 
-    fn is_wide(&self) -> bool {
+    /// Whether 64-bit forces may not tell the accelerations: some blocks are far heavier than others.
+    pub(crate) fn is_wide(&self) -> bool {
         let masses = || (0..self.blocks()).map(|block| self.inverse_mass(block)[0].recip());
         masses().fold(0.0, f64::max) > WIDE * masses().fold(f64::INFINITY, f64::min)
     }
 
-    /// None if the system is too near to a singular one, or an active contact would pull: it is not closed then.
+    /// Where no active set fits, the motion of the first in which nothing pulls, whose contacts may close a little. None if the
+    /// system is too near to a singular one.
     fn refined(&self, blocks: &BlockSet, f: impl Fn(usize) -> f64) -> Option<Moving> {
+        let rows = self.rows(blocks);
+        let mut active: Vec<usize> = rows.iter().copied().filter(|&j| f(j) > 0.0).collect();
+        let mut nearly = None;
+        for _ in 0..=CHANGES {
+            let Some(under) = self.on(blocks, &active) else { break };
+            let pull = |j: usize| -under.forces[j] / self.lightest(&self.generators()[j]);
+            let strongest = active.iter().copied().max_by(|&i, &j| pull(i).total_cmp(&pull(j)));
+            if let Some(pulling) = strongest.filter(|&j| pull(j) > NONE) {
+                active.retain(|&j| j != pulling);
+            } else if let Some(closing) = self.closing(&rows, &under.motion) {
+                nearly.get_or_insert(under);
+                match active.binary_search(&closing) {
+                    Ok(_) => break,
+                    Err(place) => active.insert(place, closing),
+                }
+            } else {
+                nearly = Some(under);
+                break;
+            }
+        }
+        let Moving { forces, motion } = nearly?;
+        Some(Moving { forces: forces.into_iter().map(|force| force.max(0.0)).collect(), motion })
+    }
+
+    /// The generator whose contact closes most, if it does by more than rounding of 64-bit numbers.
+    fn closing(&self, rows: &[usize], motion: &[(usize, Components)]) -> Option<usize> {
+        let of =
+            |block: usize| motion.binary_search_by_key(&block, |moving| moving.0).ok().map(|place| motion[place].1);
+        let speed = |j: usize| {
+            let (mut opening, mut size) = (0.0, 0.0);
+            for wrench in self.wrenches(&self.generators()[j]) {
+                let Some(acceleration) = of(wrench.block) else { continue };
+                for &k in self.components() {
+                    opening += wrench.value[k] * acceleration[k];
+                    size += (wrench.value[k] * acceleration[k]).abs();
+                }
+            }
+            (opening, size)
+        };
+        let speeds: Vec<(f64, f64)> = rows.iter().map(|&j| speed(j)).collect();
+        let fastest = motion.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(self.speed(*block, a)));
+        let closes = |(_, (opening, size)): &(&usize, &(f64, f64))| {
+            -opening > CLOSING * fastest && -opening > CLOSING_OF_TERMS * size
+        };
+        let all = rows.iter().zip(&speeds).filter(closes);
+        all.min_by(|(_, a), (_, b)| a.0.total_cmp(&b.0)).map(|(&j, _)| j)
+    }
+
+    /// Of the fastest point of a block, or a little less.
+    pub(crate) fn speed(&self, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
+        length([x, y, z]).max(length(*turning) * self.body(block).radius)
+    }
+
+    /// How fast a generator's contact opens in a motion (blocks ascending), and the size of the terms of that.
+    pub(crate) fn opening(&self, generator: &Generator, motion: &[(usize, Components)]) -> (f64, f64) {
+        let (mut opening, mut size) = (0.0, 0.0);
+        for wrench in self.wrenches(generator) {
+            let Ok(place) = motion.binary_search_by_key(&wrench.block, |moving| moving.0) else { continue };
+            for &k in self.components() {
+                let term = wrench.value[k] * motion[place].1[k];
+                opening += term;
+                size += term.abs();
+            }
+        }
+        (opening, size)
+    }
+
+    /// Forces and accelerations where just these contacts stay closed. None if the system is too near to a singular one.
+    fn on(&self, blocks: &BlockSet, active: &[usize]) -> Option<Moving> {
         let size = self.components().len();
         let present: Vec<usize> = blocks.iter().collect();
         let row = |block: usize| present.binary_search(&block).ok().map(|place| size * place);
-        let active: Vec<usize> = self.rows(blocks).into_iter().filter(|&j| f(j) > 0.0).collect();
         let first = size * present.len();
         let mut columns = vec![Vec::new(); first + active.len()];
         let mut right = vec![0.0; columns.len()];
@@ -85,12 +164,7 @@ impl Assembly {
         };
         let motion = present.iter().enumerate().map(of).collect();
         let mut forces = vec![0.0; self.generators().len()];
-        for (&j, &force) in active.iter().zip(&solution[first..]) {
-            if force < -NONE * self.lightest(&self.generators()[j]) {
-                return None;
-            }
-            forces[j] = force.max(0.0);
-        }
+        active.iter().zip(&solution[first..]).for_each(|(&j, &force)| forces[j] = force);
         Some(Moving { forces, motion })
     }
 

@@ -3,7 +3,7 @@
 use crate::{
     contact::Contact,
     formulate::{Acceleration, Assembly, BlockSet, Components, ContactForce, FrictionCone, Push},
-    judgement::{severity, speed},
+    judgement::severity,
     proof::{accelerations_under, closing},
 };
 use drystone_lcp::{Counts, Status};
@@ -93,8 +93,8 @@ impl End {
         let size = assembly.components().len();
         let by_loads = power(&|block| assembly.applied(block).to_vec());
         let by_push = power(&|block| push.on(block, size).to_vec());
-        let fastest = motion.iter().map(|(block, v)| speed(assembly, *block, v)).fold(0.0, f64::max);
-        let moves = |(block, v): &&(usize, Components)| speed(assembly, *block, v) > AT_REST_BESIDE * fastest;
+        let fastest = motion.iter().map(|(block, v)| assembly.speed(*block, v)).fold(0.0, f64::max);
+        let moves = |(block, v): &&(usize, Components)| assembly.speed(*block, v) > AT_REST_BESIDE * fastest;
         let shown = |(block, v): &(usize, Components)| {
             (assembly.body_index(*block), assembly.in_world(*block, v.map(|x| x / fastest)))
         };
