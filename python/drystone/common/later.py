@@ -57,22 +57,22 @@ class Page(Protocol):
 
 
 figure: Later[Figure] = Later()
-"""Of a scene or an answer: its picture."""
+"""The picture of a scene or an answer."""
 
 save_figure: Later[None] = Later()
-"""Of a figure, a path and dots per inch: writes the picture."""
+"""Writes a figure into a file, given its path and dots per inch."""
 
 draw_on: Later[None] = Later()
-"""Of a scene or an answer, and axes: draws its picture in these."""
+"""Draws the picture of a scene or an answer in given axes."""
 
 show: Later[None] = Later()
-"""Of a scene, an answer or a page: shows it, in a notebook or in the browser."""
+"""Shows a scene, an answer or a page, in a notebook or in the browser."""
 
 film: Later[None] = Later()
-"""Of a plan or a run, a path and dots per inch: writes its frames as a film."""
+"""Writes the frames of a plan or a run as a film, given its path and dots per inch."""
 
 svg_of: Later[str] = Later()
-"""Of a figure: the text of an SVG image."""
+"""The text of a figure as an SVG image."""
 
 
 def svg_if_possible(thing: object) -> str | None:
@@ -84,16 +84,16 @@ def svg_if_possible(thing: object) -> str | None:
 
 
 page: Later[Page] = Later()
-"""Of a scene, a plan or a run: its page."""
+"""The page of a scene, a plan or a run."""
 
 table: Later[str] = Later()
-"""Of an answer, and how many rows: its table as text."""
+"""The table of an answer as text, with at most a given number of rows."""
 
 imported: Later[Any] = Later()
-"""Of a file of another tool, with the options of `drystone.imports.load`: an `Imported`."""
+"""Reads a file of another tool, with the options of `drystone.imports.load`: an `Imported`."""
 
 advice: Later[str | None] = Later()
-"""Of a path: what to do with a file of another tool that was given as a scene."""
+"""What to do with a file of another tool that was given as a scene, by its path."""
 
 lies: Later[bool] = Later()
-"""Of a path: whether a name says that the file is something else than a scene."""
+"""Whether the name of a file says that it is something else than a scene."""

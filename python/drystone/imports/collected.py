@@ -21,7 +21,7 @@ DENSITY = 1000.0
 """kg/m^3, where a file gives none."""
 
 MANY = 4
-"""What was done to so many bodies is said once."""
+"""What was done to this many bodies or more is said in one line."""
 
 GROUND_MARGIN = 0.5
 """Ground reaches this share of the bodies' extent beyond them on every side, and as deep."""
@@ -44,10 +44,10 @@ class ImportedBody:
     density_factor: float = 1.0
     """What makes the pieces weigh as much as the mesh that they were simplified from."""
     weight: Weight | None = None
-    """Of its own, apart from its shape. Its pieces may overlap then, and the density is the mean
-    over the sum of their volumes."""
+    """Mass, centre of mass and inertia if the file gives them. Pieces may overlap then, and the
+    density is the mass divided by the sum of their volumes."""
     triangles: NDArray[np.int64] | None = None
-    """(n, 3), of a body within a surface: numbers of the vertices that are its one piece."""
+    """(n, 3), of a body kept as a surface: numbers of its vertices, which are its one piece."""
 
     @property
     def volume(self) -> float:
@@ -62,7 +62,7 @@ class ImportedBody:
         return self.density * self.volume if self.weight is None else self.weight.mass
 
     def with_density(self, density: float) -> ImportedBody:
-        """The same at so many kg/m^3; a weight of its own keeps its distribution."""
+        """The same body with another density, kg/m^3; a `weight` keeps its distribution."""
         weight = self.weight and self.weight.scaled(density / self.density)
         return replace(self, density=density, weight=weight)
 

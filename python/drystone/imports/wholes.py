@@ -20,8 +20,10 @@ AS_FINE = 0.5
 
 
 def whole_files(files: Sequence[Path]) -> set[Path]:
-    """Of the mesh files of a folder those that hold all parts at once: their names are no numbers,
-    where two parts at least have numbers, and they are as large and as fine as all of these."""
+    """The mesh files of a folder that hold the whole, beside files of its parts.
+
+    There are at least two parts whose names are numbers; a file of the whole has another name, and
+    is as large and as fine as all parts together."""
     numbered = [file for file in files if file.stem.isdecimal()]
     others = [file for file in files if not file.stem.isdecimal()]
     if len(numbered) < 2 or not others:

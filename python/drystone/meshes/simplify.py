@@ -48,14 +48,14 @@ class Simplification:
     """What was made of a mesh of too many triangles."""
 
     triangles: int
-    """Of the mesh."""
+    """How many the mesh had."""
     pieces: int
     corners: int
-    """Of all pieces."""
+    """How many all pieces have together."""
     bound: float
-    """Metres that the surface might move."""
+    """How far the surface was allowed to move, metres."""
     deviation: float
-    """Metres that it moved, as measured."""
+    """How far it moved, as measured, metres."""
     volume_before: float
     """Cubic metres, of the mesh. Its mass is by this volume."""
     volume_after: float

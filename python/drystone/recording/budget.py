@@ -18,16 +18,16 @@ from drystone.recording.recording import FrameForces, Recording, Series, rows_of
 
 MIB = 1 << 20
 STATE_BYTES = 1
-"""Of a body in a frame, before it is deflated, like the others here."""
+"""Bytes of one body's state in one frame, before they are compressed, as all numbers here."""
 POSE_BYTES = {2: 12, 3: 28}
-"""Of a body in a frame, by dimension."""
+"""Bytes of one body's pose in one frame, by dimension."""
 FORCE_BYTES = {2: 24, 3: 32}
-"""Of one force, by dimension."""
+"""Bytes of one force, by dimension."""
 
 
 @dataclass(frozen=True, slots=True)
 class Budget:
-    """Most bytes of arrays, before they are deflated; in base64 they are at most 4/3 of that."""
+    """Bytes of arrays that a page may hold, before they are compressed; as text a third more."""
 
     frames: int = 24 * MIB
     """States and poses of all frames."""

@@ -28,11 +28,11 @@ Hands = list[tuple[str, list[float]]]
 """Held blocks, and the wrench of the hand on each: force, N, and moment about its centre, N m."""
 
 MOST_POINTS = {2: 250_000, 3: 100_000}
-"""Canonical forces are computed of so many contact points, those of all frames together, by
-dimension: for some 10 s. Of longer plans every k-th structure has them."""
+"""Contact points of all frames together for which forces of least norm are computed, by dimension:
+that takes some 10 s. In longer plans only every second, third, ... structure has forces."""
 
 SLACK = 8
-"""Forces are computed of so many times what a page may hold before they are thinned on the way."""
+"""Forces are computed for this many times what a page may hold; beyond, frames are skipped."""
 
 
 def plan_recording(
@@ -40,10 +40,10 @@ def plan_recording(
 ) -> Recording:
     """The order of `plan` step by step, with contact forces of every structure on the way.
 
-    Without an order it is the largest structure reached, taken apart as it was put up; an assembly
-    that does not stand as a whole is one frame. The forces are those of least norm, as in
-    `Verdict.forces`, or with `which` "any" those found first; the latter not of structures that
-    stand only because blocks are held.
+    Without an order it shows the largest structure that could be built, taken apart as it was put
+    up. A structure that does not stand as a whole is one frame. `which` says which forces are
+    shown: those of least norm ("canonical", see `Verdict.forces`), or those found first ("any"),
+    which are not known of structures that stand only because blocks are held.
     """
     which_forces(which)
     headline = str(plan).partition("; ")[0]
@@ -85,8 +85,8 @@ def _details(plan: Plan) -> list[str]:
     return [
         f"The search made {counted(plan.tests, 'stability test')} by the method {plan.test!r}, "
         f"with {counted(plan.pivots, 'pivot')} of its solver.",
-        "At each step a chart shows the sum over all tests of structures with as many blocks as "
-        "there are at that step. The first check, of the whole structure, is not counted.",
+        "At each step the charts show the work of all tests of structures with as many blocks as "
+        "are left at that step. The first check, of the whole structure, is not counted.",
     ]
 
 
@@ -153,7 +153,7 @@ def _next_step(plan: Plan, order: Sequence[str], step: int) -> str:
 
 
 def _series(plan: Plan, blocks: int) -> list[Series]:
-    """Sums over the tests on structures of as many blocks as each frame has."""
+    """For each frame the work of all tests of structures with as many blocks."""
     sizes = np.array([record.size for record in plan.records], dtype=np.int64)
 
     def total(values: Sequence[float]) -> NDArray[np.float64]:
