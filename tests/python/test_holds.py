@@ -113,8 +113,9 @@ def test_the_page_says_what_hands_do() -> None:
 
     plan = ds.plan(ds.scenes.arch(5), hold=1, clear_path=True)
     captions = [text for _, text in plan_recording(plan).captions]
-    assert captions[0].endswith("Next: hold 3, 4 towards (-0.309, 0.951).")
-    assert "Held: 3. Next: hold 2, 3 towards" in captions[1]
+    assert captions[0].endswith("Next: hold 3, then take away 4 towards (-0.309, 0.951).")
+    assert "Held: 3. The hand on 3 bears " in captions[1]
+    assert " N. Next: hold 2, then take away 3 towards" in captions[1]
 
 
 @pytest.mark.parametrize("space", [False, True])

@@ -57,7 +57,7 @@ def test_the_plan_opens_at_the_whole_structure(opened: Opener, plan: ds.Plan) ->
     tab = opened(plan.view())
     assert tab.title() == "Order found for 5 blocks"
     says(tab, "place", "Step 0 of 5")
-    says(tab, "caption", "The whole structure: 5 blocks. Next: 5.")
+    says(tab, "caption", "The whole structure: 5 blocks. Next: take away 5.")
     picture = pixels(tab)
     assert count(picture, LIGHT["stone"]) > 20_000
     assert count(picture, LIGHT["next"]) > 2000
@@ -168,10 +168,14 @@ def test_frames_without_forces_show_those_before_and_say_so(opened: Opener, plan
     kept = np.arange(6) % 2 == 0
     tab = opened(Page(replace(recording, forces=replace(recording.forces, kept=kept))))
     tab.click("#forward")
-    says(tab, "caption", "5 is taken away; 4 blocks left. Next: 4. (Forces: those of step 0.)")
+    says(
+        tab,
+        "caption",
+        "5 is taken away; 4 blocks left. Next: take away 4. (Forces: those of step 0.)",
+    )
     assert count(pixels(tab), LIGHT["force"]) > 200
     tab.click("#forward")
-    says(tab, "caption", "4 is taken away; 3 blocks left. Next: 3.")
+    says(tab, "caption", "4 is taken away; 3 blocks left. Next: take away 3.")
 
 
 def test_held_blocks_are_hatched_and_named(opened: Opener) -> None:
@@ -318,7 +322,7 @@ def test_everything_has_a_name_for_those_who_do_not_see_it(opened: Opener, plan:
         label = button.get_attribute("aria-label")
         assert label or button.inner_text() or button.evaluate("e => e.labels[0].textContent")
     expect(tab.locator("#scrub")).to_have_attribute(
-        "aria-valuetext", "Step 0 of 5. The whole structure: 5 blocks. Next: 5."
+        "aria-valuetext", "Step 0 of 5. The whole structure: 5 blocks. Next: take away 5."
     )
 
 

@@ -1,6 +1,8 @@
 /** Contact forces as arrows, all to one scale, and the key that says which. */
+
 import type { Camera } from "./camera.ts";
 import type { Film, Force } from "./film.ts";
+import { measure } from "./format.ts";
 import type { Palette } from "./palette.ts";
 
 /** Arrows shorter than this (pixels) are not drawn: they would be dots. */
@@ -52,7 +54,7 @@ export function drawKey(
     if (!(pixelsANewton > 0)) return;
     const value = roundBelow(90 / pixelsANewton);
     const [x, y, length] = [14, height - 18, value * pixelsANewton];
-    const text = `${value.toLocaleString("en", { maximumSignificantDigits: 3 })} N`;
+    const text = measure(value, "N");
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "left";
     context.textBaseline = "middle";

@@ -1,7 +1,7 @@
 /** What the page says in words: about a frame, and about a body in it. */
 import { State } from "./contract.ts";
 import type { Film } from "./film.ts";
-import { counted, figures } from "./format.ts";
+import { counted, figures, measure } from "./format.ts";
 
 /** "Step 3 of 84", "1.25 s · step 300 of 1,200"; nothing where there is but one. */
 export function place(film: Film, frame: number): string {
@@ -52,7 +52,7 @@ export function facts(film: Film, frame: number, body: number): [string, string]
         const largest = Math.max(...forces.map(({ fx, fy, fz }) => Math.hypot(fx, fy, fz)));
         rows.push([
             "pushed by",
-            `${counted(forces.length, "force")}, up to ${figures(largest, 3)} N`,
+            `${counted(forces.length, "force")}, up to ${measure(largest, "N")}`,
         ]);
     }
     return rows;

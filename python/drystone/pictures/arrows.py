@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.patches import FancyArrow
 from numpy.typing import NDArray
 
+from drystone.common.units import quantity
 from drystone.pictures import style
 from drystone.pictures.canvas import Canvas
 
@@ -96,7 +97,7 @@ def _draw_key(
     canvas.axes.text(
         start[0] + value * metres + 4 / canvas.points_per_metre,
         start[1],
-        f"{value:g} {unit}",
+        quantity(value, unit) if unit == "N" else f"{value:g} {unit}",
         size=8,
         color=style.INK,
         va="center",

@@ -128,11 +128,11 @@ def _captions(plan: Plan, order: Sequence[str], hands: dict[int, Hands]) -> list
             text += f" With {any_of}{shorten(plan.falls_next)} something falls."
         if step < len(plan.holds) and plan.holds[step]:
             text += f" Held: {shorten(plan.holds[step])}."
-        if step < len(order):
-            text += f" Next: {_next_step(plan, order, step)}."
         for name, wrench in hands.get(step, ()):
             force = float(np.linalg.norm(wrench[: plan.scene.dimension]))
             text += f" The hand on {shown(name)} bears {quantity(force, 'N')}."
+        if step < len(order):
+            text += f" Next: {_next_step(plan, order, step)}."
         captions.append((step, text))
     return captions
 
@@ -149,7 +149,8 @@ def _next_step(plan: Plan, order: Sequence[str], step: int) -> str:
     if plan.directions:
         numbers = ", ".join(f"{round(x, 3) + 0.0:g}" for x in plan.directions[step])
         way = f" towards ({numbers})"
-    return ", ".join([*hands, f"{name}{way}"])
+    away = f"take away {name}{way}"
+    return f"{', '.join(hands)}, then {away}" if hands else away
 
 
 def _series(plan: Plan, blocks: int) -> list[Series]:
