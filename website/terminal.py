@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from html import escape
@@ -23,7 +24,6 @@ def picture(commands: list[str]) -> str:
     """The text of an SVG file: each command, and what it prints."""
     lines: list[str] = []
     for command in commands:
-        # Times differ from run to run: the part of a line that has them is left out.
         ran = subprocess.run(
             [Path(sys.executable).with_name("drystone"), *command.split()],
             capture_output=True,
@@ -46,9 +46,8 @@ def picture(commands: list[str]) -> str:
 
 
 def _timeless(line: str) -> str:
-    return (
-        line.split(" ms in tests")[0].rsplit(", ", 1)[0] + "." if " ms in tests" in line else line
-    )
+    """The line without how long it took, which differs from run to run."""
+    return re.sub(r", [\d.]+ \S+ in tests of [\d.]+ [^\s.]+(?=\.)", "", line).rstrip()
 
 
 def _colour(line: str) -> str:

@@ -21,6 +21,7 @@ LARGEST = 300_000
 sys.path.insert(0, str(ROOT / "website"))
 import films  # noqa: E402
 import gallery  # noqa: E402
+import terminal  # noqa: E402
 
 
 @pytest.fixture(autouse=True)
@@ -59,6 +60,14 @@ def test_films(name: str) -> None:
     assert [len(text), text.count("@keyframes")] == pytest.approx(
         [len(kept), kept.count("@keyframes")], rel=0.01
     ), "run `make pictures`"
+
+
+def test_the_terminal_shows_no_times() -> None:
+    """So that the same program gives the same picture; what a command prints is in it."""
+    text = terminal.picture(["check column:2", "plan column:3"])
+    assert "Stands: 1 block" in text
+    assert "Order found for 2 blocks; 1 test, 2 pivots.<" in text
+    ElementTree.fromstring(text)
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
