@@ -95,12 +95,15 @@ class Scene(Adding, Paged):
     ) -> str:
         """Put a permanent load on a body and return the load's name.
 
-        `force` (N, world axes) acts at the point `at` (metres, world coordinates), by default at
-        the centroid of the body; `moment` (N m) beside it, counter-clockwise, in space three
-        numbers about the axes of the world. Every question takes it into account. In motion the
-        point goes with the body, and force and moment keep their direction.
+        - `force` (N, along the axes of the world) acts at the point `at` (metres, world
+          coordinates), by default at the centroid of the body.
+        - `moment` (N m) acts beside it, counter-clockwise; in space it is three numbers, about the
+          axes of the world.
 
-        Raises SceneError for an unknown body, a name that another load has, wrong numbers.
+        Every question takes the load into account. In motion the point goes with the body, while
+        force and moment keep their direction.
+
+        Raises SceneError for an unknown body, a name that another load has, or wrong numbers.
 
         >>> import drystone as ds
         >>> scene = ds.scenes.slope(20, friction=0.5)
@@ -120,21 +123,24 @@ class Scene(Adding, Paged):
         )
 
     def add_pressure(self, body: str, face: Point, pressure: float, name: str | None = None) -> str:
-        """Load the face of a body that looks in the direction `face` and return the load's name.
+        """Put a pressure on one face of a body and return the load's name.
 
-        `pressure` in N/m^2 pushes against the face; in the plane in N/m, for each metre of its
-        length. `face` need not be a unit vector. Of the faces whose normals are nearest to it,
-        within 45 degrees, the outermost is taken: for a body of several pieces all that lie in that
-        plane. What acts on the body is the resultant, a load like those of `add_load`.
+        `face` is the direction in which the face looks, a vector of any length: (0, 1) is the top.
+        The face whose normal is nearest to it is taken, within 45 degrees; of several the outermost
+        one, with all pieces of the body that lie in its plane. `pressure` pushes against the face:
+        N/m^2, in the plane N/m. What acts on the body is the resultant, a load like those of
+        `add_load`.
 
-        Raises SceneError if no face looks there, or two alike, and for what `add_load` does.
+        Raises SceneError if no face looks there, or two do equally, and for what `add_load` does.
         """
         direction = vector(face, self.dimension, "face (a direction)")
         force = number(pressure, "pressure")
         return _core.add_pressure(self._core, name_of(body), direction, force, optional_name(name))
 
     def set_friction(self, a: str, b: str, friction: float) -> None:
-        """Give the contacts of two bodies a coefficient of their own, whatever those of the two.
+        """Give two bodies a coefficient of friction for where they touch one another.
+
+        It takes the place of the smaller one of their own coefficients.
 
         Raises SceneError for an unknown name, one body twice, or a coefficient that is not usable.
         """
@@ -157,8 +163,8 @@ class Scene(Adding, Paged):
     def from_compas(cls, assembly: object, **options: object) -> Scene:
         """The scene of a COMPAS assembly, model or mesh: a file, or the object itself.
 
-        `options` are those of `drystone.imports.load`, whose `Imported` also says what was left
-        out or taken otherwise than given. compas need not be installed.
+        `options` are those of `drystone.imports.load`, which also says what was left out or taken
+        in another way than it was written. compas need not be installed.
         """
         scene: Scene = later.imported(assembly, **options).scene
         return scene
@@ -215,7 +221,8 @@ class Scene(Adding, Paged):
 
     @property
     def contact_tolerance(self) -> float | None:
-        """Gap or overlap up to which two bodies touch, metres; None for a share of their size."""
+        """How far apart bodies may be, or how deep they may overlap, and still touch, metres. None:
+        a small fraction of their size."""
         return self._core.contact_tolerance
 
     @property
@@ -260,14 +267,14 @@ class Scene(Adding, Paged):
 
     @property
     def overlaps(self) -> list[Overlap]:
-        """Every pair of bodies that overlap by more than the contact tolerance; a scene with one
-        has no contacts and no verdict. Two fixed bodies may overlap."""
+        """Every pair of bodies that overlap by more than the contact tolerance. As long as there is
+        one, the scene has no contacts and no verdict. Two fixed bodies may overlap."""
         return [Overlap(*pair) for pair in self._core.overlaps()]
 
     @property
     def near_misses(self) -> list[NearMiss]:
-        """Every pair of bodies that do not touch, but would with a contact tolerance ten times
-        larger: gaps that nothing was meant to have, or to be without."""
+        """Every pair of bodies that do not touch, but would if the contact tolerance were ten times
+        larger. Often they were meant to touch."""
         return [NearMiss(*pair) for pair in self._core.near_misses()]
 
     def __len__(self) -> int:
