@@ -55,6 +55,12 @@ NEED_MORE = (
 )
 """A browser, the source tree's own tools, Ray."""
 
+KEPT = (
+    *("HOME", "LANG", "TMPDIR", "CARGO_HOME", "RUSTUP_HOME"),
+    *("SYSTEMROOT", "USERPROFILE", "APPDATA", "LOCALAPPDATA", "TEMP", "TMP", "PATHEXT"),
+)
+"""Environment variables that programs need to find their own files; on Windows the second line."""
+
 LARGEST = 16 * 2**20
 """Bytes of the compiled library: a wheel that is larger was not stripped."""
 
@@ -152,8 +158,7 @@ class Environment:
             if path is None:
                 raise DistTestError(f"{name} is needed to build from the sdist")
             (links / name).symlink_to(path)
-        kept = ("HOME", "CARGO_HOME", "RUSTUP_HOME", "TMPDIR", "TEMP", "SYSTEMROOT", "LANG")
-        self._variables = {name: os.environ[name] for name in kept if name in os.environ}
+        self._variables = {name: os.environ[name] for name in KEPT if name in os.environ}
         self._variables |= {
             name: value
             for name, value in os.environ.items()
