@@ -115,9 +115,9 @@ class Film:
         """Keyframes where the value changes; none if it never does."""
         if len(values) != self.frames:
             raise ValueError(f"{len(values)} values for {self.frames} frames")
-        tag, rest = element.split(" ", 1)
+        tag, rest = _split(element)
         if len(set(values)) == 1:
-            return f'{tag} style="{name}:{values[0]}" {rest}'
+            return f'{tag} style="{name}:{values[0]}"{rest}'
         key = f"a{len(self.css)}"
         stops = [
             f"{100 * k / self.frames:.5g}%{{{name}:{value}}}"
@@ -130,7 +130,7 @@ class Film:
         self.css.append(
             f".{key}{{{name}:{values[0]};animation:{key} {self.seconds:g}s {timing} infinite}}"
         )
-        return f'{tag} class="{key}" {rest}'
+        return f'{tag} class="{key}"{rest}'
 
 
 def arrow(view: View, tail: NDArray[np.float64], vector: NDArray[np.float64], width: float) -> str:
@@ -148,6 +148,12 @@ def arrow(view: View, tail: NDArray[np.float64], vector: NDArray[np.float64], wi
         f"M{x:.1f} {y:.1f}L{neck[0]:.1f} {neck[1]:.1f}"
         f"M{left[0]:.1f} {left[1]:.1f}L{u:.1f} {v:.1f}L{right[0]:.1f} {right[1]:.1f}z"
     )
+
+
+def _split(element: str) -> tuple[str, str]:
+    """An element's beginning, such as `<g`, and what follows."""
+    end = next(k for k, character in enumerate(element) if character in " >")
+    return element[:end], element[end:]
 
 
 def _needed(values: Sequence[str], k: int, evenly: bool) -> bool:

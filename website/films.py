@@ -55,8 +55,8 @@ def _leaving(film: Film, body: ds.Body, block: str, gone: int) -> str:
     x, y = 0.4 * film.view.scale * np.asarray(body.centroid) / np.hypot(*body.centroid)
     before, after = gone, film.frames - gone
     moves = ["translate(0px,0px)"] * before + [f"translate({x:.0f}px,{-y:.0f}px)"] * after
-    seen = film.moving(["1"] * before + ["0"] * after, f"<g >{block}</g>", "opacity")
-    return film.moving(moves, f"<g >{seen}</g>")
+    seen = film.moving(["1"] * before + ["0"] * after, f"<g>{block}</g>", "opacity")
+    return film.moving(moves, f"<g>{seen}</g>")
 
 
 def _held_verdict(plan: ds.Plan, step: int) -> ds.Verdict:
@@ -103,7 +103,7 @@ def wall_falls() -> Film:
             fills = [style.NEXT] * len(fills)
         shape = film.steps("fill", fills, _centred(film, frame[name], poses[-1, column]))
         moves = [_placed(view, pose) for pose in poses[:, column]]
-        film.add(film.moving(moves, f"<g >{shape}</g>"))
+        film.add(film.moving(moves, f"<g>{shape}</g>"))
     film.say([f"{run.dt * every * k:.1f} s. Dark: motionless." for k in range(len(poses))])
     return film
 
