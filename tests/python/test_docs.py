@@ -48,7 +48,10 @@ def test_the_readme_has_an_example() -> None:
     assert ">>> ds.check(scene).stable" in (ROOT / "README.md").read_text()
 
 
-@pytest.mark.parametrize("page", PAGES)
+RULES = ["RELEASING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "CHANGELOG.md", "fuzz/README.md"]
+
+
+@pytest.mark.parametrize("page", [*PAGES, *RULES])
 def test_links_lead_somewhere(page: str) -> None:
     text = (ROOT / page).read_text()
     links = re.findall(r"\]\(([^)#]+)\)", text) + re.findall(r'src="([^"]+)"', text)
