@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from drystone.equilibrium.contact_force import ContactForce, ContactForces
     from drystone.equilibrium.limits import Limit, LimitEnd, limit
     from drystone.equilibrium.margins import Margin, margin
+    from drystone.equilibrium.strong import Escape
     from drystone.equilibrium.structure import Structure
     from drystone.equilibrium.verdict import Verdict, check
     from drystone.many import EngineError, ManyPlans, ScenePlan, plan_many
@@ -48,6 +49,7 @@ __all__ = [
     "ContactForces",
     "DrystoneError",
     "EngineError",
+    "Escape",
     "LcpError",
     "Limit",
     "LimitEnd",
@@ -97,6 +99,7 @@ _HOMES = {
     "ContactForces": "drystone.equilibrium.contact_force",
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
+    "Escape": "drystone.equilibrium.strong",
     "LcpError": "drystone._core",
     "Limit": "drystone.equilibrium.limits",
     "LimitEnd": "drystone.equilibrium.limits",

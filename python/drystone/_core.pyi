@@ -15,6 +15,7 @@ __all__ = [
     "ContactForces",
     "ContactSolution",
     "DrystoneError",
+    "Escape",
     "Forces",
     "Generators",
     "LcpError",
@@ -35,6 +36,7 @@ __all__ = [
     "StartError",
     "StepError",
     "StepRecord",
+    "Strong",
     "Structure",
     "StructureForces",
     "TestRecord",
@@ -57,6 +59,7 @@ __all__ = [
     "pair_frictions",
     "plan",
     "set_friction",
+    "strong",
     "with_gravity",
 ]
 
@@ -306,6 +309,25 @@ class Verdict:
     residual: float
     virtual_motion: bool
     doubt: tuple[float, float] | None
+    seconds: float
+
+@final
+class Escape:
+    """`accelerations` (blocks, 3 or 6) of the bodies `names`; `error` of the fastest of them."""
+
+    names: list[str]
+    accelerations: NDArray[np.float64]
+    forces: ContactForces
+    error: float
+
+@final
+class Strong:
+    """`must_stand` None where it was not decided."""
+
+    must_stand: bool | None
+    nodes: int
+    programs: int
+    escape: Escape | None
     seconds: float
 
 @final
@@ -691,6 +713,7 @@ def check(
     cones: tuple[int, str] | None = None,
     round_cones: bool = False,
 ) -> Verdict: ...
+def strong(scene: Scene, blocks: Sequence[str] | None = None, budget: int = ...) -> Strong: ...
 def plan(
     scene: Scene,
     test: str | Callable[[list[int], int], tuple[bool, int]],

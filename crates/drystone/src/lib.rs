@@ -11,7 +11,7 @@
 //! - [`geometry`]: convex polygons, their poses, areas and moments.
 //! - [`contact`]: which blocks touch, where and along which normal, with stable identities.
 //! - [`formulate`]: the contacts as a complementarity problem, and its solution as forces and accelerations.
-//! - [`mod@check`]: does it stand? - [`unsupported`]: what bears on nothing? - [`structure`]: and now, with this block more or less? - [`mod@plan`]: in which order does it come apart without falling?
+//! - [`mod@check`]: does it stand? - [`mod@strong`]: must it? - [`unsupported`]: what bears on nothing? - [`structure`]: and now, with this block more or less? - [`mod@plan`]: in which order does it come apart without falling?
 //! - [`simulate`]: how does it move?
 //!
 //! Units are SI throughout: metres, kilograms, seconds, radians, newtons.
@@ -39,6 +39,7 @@ mod scene_in_space;
 mod scene_loads;
 pub mod scenes;
 pub mod simulate;
+pub mod strong;
 pub mod structure;
 mod suggest;
 mod takedown;

@@ -103,6 +103,63 @@ pub(crate) fn closing(
     if most > 0.0 { most / fastest } else { 0.0 }
 }
 
+/// The fastest point of what Newton's and Euler's law leaves unexplained of the accelerations of blocks, m/s^2.
+pub(crate) fn unbalanced(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    motion: &[(usize, Components)],
+    forces: &[ContactForce],
+) -> f64 {
+    let under = accelerations_under(assembly, blocks, forces);
+    let left = |((block, a), (_, b)): (&(usize, Components), &(usize, Components))| {
+        assembly.speed(*block, &std::array::from_fn(|k| a[k] - b[k]))
+    };
+    motion.iter().zip(&under).map(left).fold(0.0, f64::max)
+}
+
+/// The largest error of Coulomb's law and of complementarity at a contact, for blocks at rest that begin to move, m/s^2: the
+/// length of the natural map `r f - P(r f - (a + mu |a_t| n))`, P onto the cone, r the mean inverse mass at the contact.
+pub(crate) fn law_error(assembly: &Assembly, motion: &[(usize, Components)], forces: &[ContactForce]) -> f64 {
+    let mut of = vec![None; assembly.blocks()];
+    motion.iter().for_each(|(block, a)| of[*block] = Some(a));
+    let error = |force: &ContactForce| {
+        let contact = &assembly.contacts()[force.contact];
+        let (relative, _) = relative_motion(assembly, contact, &of);
+        let (mu, inverse) = (contact.friction, inverse_mass_at(assembly, contact));
+        let [forced, moved] = [force.force.map(|f| inverse * f), relative];
+        let across = |v: [f64; 3]| minus(v, contact.normal.map(|n| n * dot(v, contact.normal)));
+        let towards: [f64; 3] = std::array::from_fn(|k| forced[k] - moved[k]);
+        let normal = dot(towards, contact.normal) - mu * length(across(moved));
+        let tangent = across(towards);
+        let size = length(tangent);
+        let (n, share) = if size <= mu * normal {
+            (normal, 1.0)
+        } else if mu * size <= -normal {
+            (0.0, 0.0)
+        } else {
+            let n = (normal + mu * size) / (1.0 + mu * mu);
+            (n, mu * n / size)
+        };
+        length(std::array::from_fn(|k| forced[k] - n * contact.normal[k] - share * tangent[k]))
+    };
+    forces.iter().map(error).fold(0.0, f64::max)
+}
+
+/// The mean over the directions of the acceleration that a unit force at a contact gives along itself, 1/kg.
+fn inverse_mass_at(assembly: &Assembly, contact: &Contact) -> f64 {
+    let axes = if assembly.in_plane() { 2 } else { 3 };
+    let mut sum = 0.0;
+    for body in contact.bodies {
+        let Some(block) = assembly.block_of(body) else { continue };
+        for axis in 0..axes {
+            let wrench = assembly.bodies()[body].wrench(std::array::from_fn(|k| f64::from(k == axis)), contact.point);
+            let own = assembly.components().iter().zip(assembly.inverse_mass(block));
+            sum += own.map(|(&k, inverse)| wrench[k] * wrench[k] * inverse).sum::<f64>();
+        }
+    }
+    sum / axes as f64
+}
+
 /// Motion of the second body of a contact relative to the first, at the point, and the sum of the sizes of its parts.
 fn relative_motion(assembly: &Assembly, contact: &Contact, of: &[Option<&Components>]) -> ([f64; 3], f64) {
     let (mut relative, mut size) = ([0.0; 3], 0.0);

@@ -16,6 +16,7 @@ mod plan;
 mod recording;
 mod run;
 mod scene;
+mod strong;
 mod structure;
 mod verdict;
 mod watch;
@@ -38,6 +39,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<verdict::Verdict>()?;
     module.add_class::<limit::Limit>()?;
     module.add_class::<limit::LimitEnd>()?;
+    module.add_class::<strong::Strong>()?;
+    module.add_class::<strong::Escape>()?;
     module.add_class::<margin::Margin>()?;
     module.add_class::<plan::TestRecord>()?;
     module.add_class::<plan::Plan>()?;
@@ -55,6 +58,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<lcp_solver::LcpSnapshot>()?;
     module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(limit::limit, module)?)?;
+    module.add_function(wrap_pyfunction!(strong::strong, module)?)?;
     module.add_function(wrap_pyfunction!(margin::margin, module)?)?;
     module.add_function(wrap_pyfunction!(margin::least_friction, module)?)?;
     module.add_function(wrap_pyfunction!(loads::add_load, module)?)?;

@@ -67,11 +67,20 @@ def check(
             "contact points), or any, which takes less time."
         ),
     ] = None,
+    strong: Annotated[
+        bool,
+        typer.Option("--strong", help="Must it stand? Looks for another motion than rest as well."),
+    ] = False,
+    strong_budget: Annotated[
+        int | None, typer.Option(min=1, metavar="NODES", help="Most nodes of that search.")
+    ] = None,
 ) -> int:
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command
 
-    return command.run(scene, blocks, block, as_json, output, facets, cone, forces)
+    return command.run(
+        scene, blocks, block, as_json, output, facets, cone, forces, strong, strong_budget
+    )
 
 
 @app.command()

@@ -12,6 +12,7 @@ from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
 from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
+from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
 from drystone.report.tables import verdict_table
 
@@ -29,22 +30,39 @@ def run(
     facets: int,
     cone: ConeOfCheck,
     forces: WhichForces | None,
+    strong: bool,
+    budget: int | None,
 ) -> int:
-    """0 if it stands, 1 if not, 2 if there is no verdict."""
+    """0 if it stands, 1 if not, 2 if there is no verdict.
+
+    With `strong` 0 if it must stand, 1 if it need not, 2 if that was not decided.
+    """
     picture = picture_path(output)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
-    verdict = check(scene, names, facets=facets, cone=cone, forces=forces or CANONICAL)
+    if budget is not None and not strong:
+        raise InputError("--strong-budget goes with --strong")
+    verdict = check(
+        scene,
+        names,
+        facets=facets,
+        cone=cone,
+        forces=forces or CANONICAL,
+        strong=strong,
+        strong_budget=budget or BUDGET,
+    )
     if forces is None and len(verdict.forces) > MOST_POINTS:
         verdict = replace(verdict, forces=verdict.forces.as_found())
-    draw(verdict, picture)
+    draw(verdict if verdict.escape is None else verdict.escape, picture)
     if as_json:
         verdict.write_json(sys.stdout)
     else:
         _print(verdict, picture)
     if verdict.status != "solved":
         raise InputError(f"{scene_name}: no verdict ({verdict.status})")
-    return 0 if verdict.stable else 1
+    if strong and verdict.must_stand is None:
+        raise InputError(f"{scene_name}: not decided whether it must stand ({verdict.nodes} nodes)")
+    return 0 if (verdict.must_stand if strong else verdict.stable) else 1
 
 
 def _print(verdict: Verdict, picture: Path | None) -> None:

@@ -14,7 +14,7 @@ from drystone.common import later
 from drystone.common.cones import CONES, FACETS, ROUND, ConeOfCheck, core_cones
 from drystone.common.drawn import DPI, Drawn
 from drystone.common.json_text import Rows, save_json, write_json
-from drystone.common.numbers import names_of
+from drystone.common.numbers import names_of, whole
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.bearing import Explanation, Unsupported
 from drystone.equilibrium.contact_force import (
@@ -24,6 +24,7 @@ from drystone.equilibrium.contact_force import (
     WhichForces,
     which_forces,
 )
+from drystone.equilibrium.strong import BUDGET, Escape
 from drystone.scene import NearMiss, Scene
 from drystone.scene.scene import scene_of
 
@@ -98,7 +99,18 @@ class Verdict(Drawn):
     """The scene checked."""
     certain: bool = True
     """Whether the verdict is also that of Coulomb's round cones. False only where pyramids were
-    asked for, in space, and their edges may have decided: see `cone` of `check`."""
+    asked for, in space, and their edges may have decided: see `cone` of `check`. It is
+    said of `stable`; `must_stand` is None where it is not certain."""
+    must_stand: bool | None = None
+    """With `strong=True` in `check`: whether rest is the only motion that the contact laws allow.
+    False if there is another one, see `escape`, or if it does not stand at all. None if it was not
+    asked, or not decided within the budget of nodes."""
+    escape: Escape | None = None
+    """A motion that obeys every law of contact, where there is one beside rest. Of a structure that
+    does not stand, one of those with which it begins to fall, by Coulomb's friction."""
+    nodes: int | None = None
+    """With `strong=True`: nodes of the search, the same in every run; see
+    docs/theory/strong-stability.md."""
 
     @classmethod
     def _of(
@@ -179,10 +191,24 @@ class Verdict(Drawn):
             points = counted(len(self.forces), "contact point")
             if self.borders:
                 points += f" ({len(self.borders)} bearing where only corners or edges meet)"
-            return f"Stands: {counted(len(self.names), 'block')}, {points}; {work}."
+            blocks = counted(len(self.names), "block")
+            return f"{self._standing()}: {blocks}, {points}; {work}{self._searched()}."
         blocks = f"{len(self.falling)} of {counted(len(self.names), 'block')}"
         fall = f"Falls: {blocks} ({shorten(self.falling)}); {work}."
         return "\n".join([fall, *self._explanation().lines()])
+
+    def _standing(self) -> str:
+        if self.nodes is None:
+            return "Stands"
+        if self.must_stand is None:
+            return "Can stand, undecided whether it must"
+        if self.must_stand or self.escape is None:
+            return "Must stand"
+        moving = shorten(self.escape.falling)
+        return f"Can stand, need not (it can begin to move with {moving})"
+
+    def _searched(self) -> str:
+        return "" if self.nodes is None else f", {counted(self.nodes, 'node')}"
 
     def __repr__(self) -> str:
         return f"<Verdict: {str(self).splitlines()[0]}>"
@@ -205,6 +231,7 @@ class Verdict(Drawn):
             "stable": self.stable,
             "status": self.status,
             "certain": self.certain,
+            **self._strong_to_dict(),
             "virtual_motion": self.virtual_motion,
             "doubt": None if self.doubt is None else list(self.doubt),
             "falling": list(self.falling),
@@ -221,6 +248,13 @@ class Verdict(Drawn):
             "residual": self.residual,
             "seconds": self.seconds,
         }
+
+    def _strong_to_dict(self) -> dict[str, Any]:
+        """Nothing unless it was asked for."""
+        if self.nodes is None:
+            return {}
+        escape = None if self.escape is None else self.escape.to_dict()
+        return {"must_stand": self.must_stand, "nodes": self.nodes, "escape": escape}
 
     def table(self, rows: int = MOST_ROWS) -> str:
         """The first `rows` forces of what stands, or accelerations of what falls, as text.
@@ -248,6 +282,8 @@ def check(
     facets: int = FACETS,
     cone: ConeOfCheck = ROUND,
     forces: WhichForces = CANONICAL,
+    strong: bool = False,
+    strong_budget: int = BUDGET,
 ) -> Verdict:
     """Does `scene` stand? With which contact forces, or how does it begin to fall?
 
@@ -278,11 +314,20 @@ def check(
 
     Raises SceneError for an unknown name, or bodies that overlap.
 
+    "It stands" says that it *can*: forces exist that hold it. With `strong=True` it is decided as
+    well whether it *must* (`Verdict.must_stand`): whether rest is the only motion that the laws of
+    contact allow (strong stability: Pang and Trinkle 2000). A block that hangs between two walls
+    can also fall, which `Verdict.escape` then is. The search looks at up to `strong_budget` cases
+    of what parts, slides and rests. In space nothing is searched: that it must stand is said of
+    what stands without friction, that it need not where a step from rest finds another motion.
+
     >>> import drystone as ds
-    >>> verdict = ds.check(ds.scenes.column(4))
-    >>> verdict.stable
-    True
+    >>> verdict = ds.check(ds.scenes.column(4), strong=True)
+    >>> verdict.stable, verdict.must_stand
+    (True, True)
     """
+    if whole(strong_budget, "strong_budget") < 1:
+        raise ValueError(f"strong_budget is {strong_budget}: it must be one node or more")
     names = names_of(blocks)
     scene = copy.copy(scene_of(scene))  # the one checked, whatever becomes of it
     core_cones(facets, cone, (ROUND, *CONES))
@@ -293,8 +338,17 @@ def check(
     if cone == "both" and verdict.status == "solved" and not verdict.certain:
         outer = _core.check(scene._core, names, method, (facets, CONES[1]))
         if outer.status == "solved" and not outer.stable:
-            return replace(verdict, certain=True)
-    return verdict
+            verdict = replace(verdict, certain=True)
+    return _searched(verdict, names, strong_budget) if strong else verdict
+
+
+def _searched(verdict: Verdict, names: list[str] | None, budget: int) -> Verdict:
+    """The verdict with whether it must stand."""
+    found = _core.strong(verdict.scene._core, names, budget)
+    solved = verdict.status == "solved"
+    must = (verdict.stable and found.must_stand) if solved else None
+    escape = None if found.escape is None else Escape._of(found.escape, verdict.scene)
+    return replace(verdict, must_stand=must, escape=escape, nodes=found.nodes)
 
 
 def _certain(core: _core.Verdict, scene: Scene, cone: str) -> bool:

@@ -11,12 +11,13 @@ with extra("pictures", "pictures"):
     from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
     from drystone.pictures.film import save_film
     from drystone.pictures.graph import graph_figure
-    from drystone.pictures.limits import limit_figure, margin_figure
+    from drystone.pictures.limits import escape_figure, limit_figure, margin_figure
     from drystone.pictures.pictured import draw_on, figure_of
     from drystone.pictures.recording import frame_figure
 
 __all__ = [
     "draw_on",
+    "escape_figure",
     "figure_of",
     "frame_figure",
     "graph_figure",

@@ -1,4 +1,4 @@
-"""A structure at its limit: the forces that still hold it, the push, and how it collapses."""
+"""A structure at its limit, with the forces that still hold it; and one that can leave rest."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from drystone.equilibrium.contact_force import ContactForces
     from drystone.equilibrium.limits import Limit
     from drystone.equilibrium.margins import Margin
+    from drystone.equilibrium.strong import Escape
     from drystone.scene import Scene
 
 
@@ -38,6 +39,11 @@ class Mechanism:
 
     def __str__(self) -> str:
         return self.text
+
+
+def escape_figure(escape: Escape) -> Figure:
+    """How blocks leave rest although they could stay, with the forces in that motion."""
+    return moved_figure(escape, "m/s²")
 
 
 def margin_figure(margin: Margin) -> Figure:

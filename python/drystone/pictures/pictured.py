@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 from drystone.equilibrium.limits import Limit
 from drystone.equilibrium.margins import Margin
+from drystone.equilibrium.strong import Escape
 from drystone.equilibrium.structure import Structure
 from drystone.equilibrium.verdict import Verdict
 from drystone.motion.run import Run
 from drystone.motion.world import World
 from drystone.pictures.canvas import drawing_on
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
-from drystone.pictures.limits import limit_figure, margin_figure
+from drystone.pictures.limits import escape_figure, limit_figure, margin_figure
 from drystone.pictures.recording import frame_figure
 from drystone.planning.answer import Plan
 from drystone.recording.of_run import recording_of_run
@@ -34,6 +35,7 @@ figure_of.register(Scene, scene_figure)
 figure_of.register(Verdict, verdict_figure)
 figure_of.register(Limit, limit_figure)
 figure_of.register(Margin, margin_figure)
+figure_of.register(Escape, escape_figure)
 figure_of.register(Plan, plan_figure)
 
 

@@ -145,16 +145,22 @@ impl BodySpace<'_> {
 
     /// What the method has found in the terms of the assembly.
     fn constrained(&self, found: Found) -> Constrained {
-        let size = self.problem.size;
-        let mut motion = Vec::with_capacity(self.blocks.len());
-        for (place, &block) in self.blocks.iter().enumerate() {
+        Constrained { motion: self.motion(&found.accelerations), forces: self.forces(&found.forces), found }
+    }
+
+    /// The blocks with their accelerations, from the unknowns of the problem.
+    pub fn motion(&self, accelerations: &[f64]) -> Vec<(usize, Components)> {
+        let of = |(&block, own): (&usize, &[f64])| {
             let mut acceleration = [0.0; 6];
-            let own = &found.accelerations[place * size..][..size];
             self.assembly.components().iter().zip(own).for_each(|(&c, a)| acceleration[c] = *a);
-            motion.push((block, acceleration));
-        }
-        let forces = self.forces(&found.forces);
-        Constrained { motion, forces, found }
+            (block, acceleration)
+        };
+        self.blocks.iter().zip(accelerations.chunks(self.problem.size)).map(of).collect()
+    }
+
+    /// What is solved.
+    pub fn problem(&self) -> &Gauss {
+        &self.problem
     }
 
     /// The force at every point, from the unknowns of its cone.

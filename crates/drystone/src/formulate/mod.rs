@@ -27,7 +27,7 @@ pub use answers::{Acceleration, ContactForce};
 pub use assembly::Assembly;
 pub use block_rows::BlockRows;
 pub use block_set::BlockSet;
-pub(crate) use body_space::Constrained;
+pub(crate) use body_space::{BodySpace, Constrained};
 pub use cones::{Bound, Cones, FACETS, FrictionCone};
 pub(crate) use cones::{cone_edges, tangents};
 pub use generator::{Generator, Wrench};

@@ -26,6 +26,7 @@ mod simulation_random;
 mod simulation_reuse;
 mod simulation_trouble;
 mod solids;
+mod strong;
 mod structure;
 mod surfaces;
 mod truths;

@@ -217,6 +217,11 @@ impl ConeSolver {
         self.pivot.multipliers.iter().map(|(row, value)| value * self.problem.h[row as usize]).sum()
     }
 
+    /// The columns of the basis, for another solver to [start from](Self::start_from).
+    pub fn basic_columns(&self) -> impl Iterator<Item = usize> {
+        self.present.rows.iter().filter_map(|&row| self.basis.column_in(row)).map(|j| j as usize)
+    }
+
     /// Adds rows, out of balance by `h` until the next solve. Rows already present stay as they are.
     pub fn add_rows(&mut self, rows: &[usize]) {
         for &row in rows {

@@ -1,0 +1,220 @@
+//! Branch and bound on which contacts part, slide and rest.
+
+use super::{
+    answer::Strong,
+    branch::{Branch, Choice},
+    escape::Escape,
+    laws::{Laws, Row},
+    program::{Answer, Found, Objective, solve},
+};
+use crate::{
+    equilibrium::GoOn,
+    formulate::{Assembly, BlockSet},
+};
+
+/// Power below which nothing moves, of that of free fall: what is left of an optimum of zero by the rounding of its multipliers. An
+/// acceleration of that power is 3e-5 of free fall.
+const NO_POWER: f64 = 1e-9;
+
+/// By how much a least bearing is taken lower than it was found, of the loads: the rounding of a program's optimum.
+const OF_A_BOUND: f64 = 1e-9;
+
+/// A law is broken if both of what must not be there together are above this, of free fall and of the loads.
+const BROKEN: f64 = 1e-8;
+
+/// Broken laws that are tried in a node before it is split; more tell little (docs/theory/strong-stability.md).
+const TRIED: usize = 12;
+
+/// A bound of the accelerations is followed as long as it falls to this share; a bearing is news if it is larger by that much.
+const FALLS_TO: f64 = 0.9;
+const GROWS_BY: f64 = 1.02;
+const NEWS: f64 = 1e-6;
+
+/// Rounds of tries in a node.
+const ROUNDS: usize = 50;
+
+/// What is known of a node.
+enum Node {
+    /// Nothing moves in it.
+    Closed,
+    Escapes(Escape),
+    /// Two nodes in its place; the second is looked at first.
+    Split(Box<[Branch; 2]>),
+    /// No program tells more.
+    Unknown,
+}
+
+/// The most power in a branch.
+enum Bound {
+    Closed,
+    Open(f64, Found),
+    Unknown,
+}
+
+struct Search<'a> {
+    assembly: &'a Assembly,
+    blocks: &'a BlockSet,
+    laws: Laws<'a>,
+    programs: usize,
+}
+
+/// See [`super::strong`].
+pub(super) fn search(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_on: &mut GoOn<'_>) -> Option<Strong> {
+    let Some(laws) = Laws::new(assembly, blocks) else {
+        return Some(Strong { must_stand: Some(true), escape: None, nodes: 0, programs: 0 });
+    };
+    let root = Branch::root(&laws);
+    let mut search = Search { assembly, blocks, laws, programs: 0 };
+    let (mut open, mut nodes, mut unknown) = (vec![root], 0, false);
+    let mut escape = None;
+    while let Some(branch) = open.pop() {
+        if nodes == budget {
+            unknown = true;
+            break;
+        }
+        if !go_on(blocks.len()) {
+            return None;
+        }
+        nodes += 1;
+        match search.look(branch) {
+            Node::Closed => {}
+            Node::Escapes(found) => {
+                escape = Some(found);
+                break;
+            }
+            Node::Split(two) => open.extend(*two),
+            Node::Unknown => unknown = true,
+        }
+    }
+    let must_stand = if escape.is_some() { Some(false) } else { (!unknown).then_some(true) };
+    Some(Strong { must_stand, escape, nodes, programs: search.programs })
+}
+
+impl Search<'_> {
+    fn solve(&mut self, branch: &Branch, objective: Objective) -> Answer {
+        self.programs += 1;
+        solve(&self.laws, branch, objective)
+    }
+
+    /// The most power, the bound of the accelerations with it: their length squared is at most that power.
+    fn bound(&mut self, branch: &mut Branch) -> Bound {
+        loop {
+            match self.solve(branch, Objective::Power) {
+                Answer::None => return Bound::Closed,
+                Answer::Unknown => return Bound::Unknown,
+                Answer::Best(power, _) if power <= NO_POWER => return Bound::Closed,
+                Answer::Best(power, found) => {
+                    branch.basis.clone_from(&found.basis);
+                    let (before, radius) = (branch.radius, power.sqrt());
+                    branch.radius = before.min(radius);
+                    if radius > FALLS_TO * before {
+                        return Bound::Open(power, found);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Bounds a node, tries what the relaxation breaks, and splits it where both sides of a choice stay open.
+    fn look(&mut self, mut branch: Branch) -> Node {
+        let mut split = None;
+        for _ in 0..ROUNDS {
+            let (power, found) = match self.bound(&mut branch) {
+                Bound::Closed => return Node::Closed,
+                Bound::Unknown => return Node::Unknown,
+                Bound::Open(power, found) => (power, found),
+            };
+            let broken = self.broken(&found);
+            if broken.is_empty() {
+                return match Escape::new(self.assembly, self.blocks, &self.laws, &found) {
+                    Some(escape) => Node::Escapes(escape),
+                    None => Node::Unknown,
+                };
+            }
+            split = None;
+            let (mut news, mut best) = (false, 0.0);
+            for choice in broken.into_iter().take(TRIED) {
+                match self.try_both(&mut branch, choice, power) {
+                    Some((worth, two)) if worth > best => (best, split) = (worth, Some(two)),
+                    Some(_) => {}
+                    None => news = true,
+                }
+            }
+            if !news {
+                break;
+            }
+        }
+        split.map_or(Node::Unknown, Node::Split)
+    }
+
+    /// Both sides of a choice, and what splitting by it is worth; None if only one of them is open, or more is known now: the
+    /// branch has it then.
+    fn try_both(&mut self, branch: &mut Branch, choice: Choice, power: f64) -> Option<(f64, Box<[Branch; 2]>)> {
+        let mut first = branch.clone().first(choice);
+        let first_power = match self.bound(&mut first) {
+            Bound::Closed => {
+                *branch = branch.clone().second(choice);
+                return None;
+            }
+            Bound::Open(power, _) => power,
+            Bound::Unknown => power,
+        };
+        let mut news = false;
+        if let Choice::Sliding(face, way) = choice {
+            match self.solve(&first, Objective::Bearing(face)) {
+                Answer::None => {
+                    *branch = branch.clone().second(choice);
+                    return None;
+                }
+                Answer::Unknown => {}
+                Answer::Best(least, _) => {
+                    let (least, known) = (least - OF_A_BOUND, branch.least[face][way]);
+                    first.least[face][way] = first.least[face][way].max(least);
+                    if least > GROWS_BY * known + NEWS {
+                        branch.least[face][way] = least;
+                        news = true;
+                    }
+                }
+            }
+        }
+        let mut second = branch.clone().second(choice);
+        let second_power = match self.bound(&mut second) {
+            Bound::Closed => {
+                *branch = first;
+                return None;
+            }
+            Bound::Open(power, _) => power,
+            Bound::Unknown => power,
+        };
+        if news {
+            return None;
+        }
+        let gain = |other: f64| (power - other).max(1e-3 * power);
+        let two = if first_power >= second_power { [second, first] } else { [first, second] };
+        Some((gain(first_power) * gain(second_power), Box::new(two)))
+    }
+
+    /// The choices of which a point of the relaxation takes neither, those it takes least first.
+    fn broken(&self, found: &Found) -> Vec<Choice> {
+        let along = |row: &Row| row.iter().map(|&(k, value)| value * found.a[k]).sum::<f64>();
+        let mut broken = Vec::new();
+        for (index, point) in self.laws.points.iter().enumerate() {
+            let (parts, bears) = (along(&point.normal), found.forces[index][0]);
+            broken.push((parts, bears, Choice::Parting(index)));
+        }
+        for (index, face) in self.laws.faces.iter().enumerate() {
+            let slides = along(&self.laws.points[face.points[0]].tangent);
+            for (way, sign) in [1.0, -1.0].into_iter().enumerate() {
+                let on_edge = |&point: &usize| {
+                    let [normal, tangential] = found.forces[point];
+                    0.5 * (normal + sign * tangential / face.friction)
+                };
+                let helps: f64 = face.points.iter().map(on_edge).sum();
+                broken.push((sign * slides, helps, Choice::Sliding(index, way)));
+            }
+        }
+        broken.retain(|&(one, other, _)| one.min(other) > BROKEN);
+        broken.sort_by(|a, b| (b.0 * b.1).total_cmp(&(a.0 * a.1)));
+        broken.into_iter().map(|(_, _, choice)| choice).collect()
+    }
+}
