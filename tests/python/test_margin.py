@@ -169,3 +169,30 @@ def test_the_command_line_and_a_picture(cli: Cli, tmp_path: Path) -> None:
     found = json.loads(cli("margin", "column:11,friction=2", "--json").out)
     assert found["acceleration"] == pytest.approx(0.1)
     assert cli("margin", "slope:20,friction=0.1").status == 1
+
+
+def test_between_which_densities_it_stands() -> None:
+    """A beam that overhangs by 1.5 of its 4 m, with a counterweight on its short end and a load on
+    the long one: moments about the edge of the foot. Weights are areas times densities."""
+    scene = ds.Scene(friction=0.5)
+    scene.add_box((0, -0.5), (1, 1), name="foot", fixed=True)
+    scene.add_box((1, 0.1), (4, 0.2), name="beam")  # from -1 to 3
+    scene.add_box((-0.75, 0.45), (0.5, 0.5), name="counterweight", density=3.0)
+    low, high = ds.margin(scene).density("counterweight") or (0.0, 0.0)
+    beam, size = 4 * 0.2, 0.25
+    # The beam turns about the right edge, x = .5, its middle is at 1: .5 beam = 1.25 w.
+    assert low == pytest.approx(0.5 * beam / (1.25 * size))
+    # About the left edge, x = -.5: 1.5 beam = .25 w.
+    assert high == pytest.approx(1.5 * beam / (0.25 * size))
+    alone = ds.scenes.column(3)
+    assert ds.margin(alone).density("1") == (0.0, float("inf"))
+
+
+def test_no_density_holds_what_falls_anyway() -> None:
+    scene = ds.Scene(friction=0.5)
+    scene.add_box((0, -0.5), (1, 1), name="foot", fixed=True)
+    scene.add_box((0, 0.5), (1, 1), name="block")
+    scene.add_box((5, 5), (1, 1), name="aloft")
+    assert ds.margin(scene).density("block") is None
+    with pytest.raises(ds.SceneError):
+        ds.margin(scene).density("blok")

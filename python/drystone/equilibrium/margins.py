@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias, cast
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
@@ -13,7 +13,7 @@ from drystone.common.drawn import DPI, Drawn
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, number
 from drystone.common.text import counted, shorten
-from drystone.equilibrium.limits import LimitEnd, finite, movable
+from drystone.equilibrium.limits import LimitEnd, finite, limit, movable
 from drystone.scene import Scene
 from drystone.scene.scene import scene_of
 
@@ -119,6 +119,23 @@ class Margin(Drawn):
             self._friction = _core.least_friction(self.scene._core, names, cones, round_cones)
         return self._friction
 
+    def density(self, name: str) -> tuple[float, float] | None:
+        """Between which densities of the body called `name` all stands, as `Body.density` counts:
+        kg/m^2, in space kg/m^3. From 0 where it could be left without weight, to infinity where no
+        weight is too much; None if it stands with none. The loads of bodies stay as they are.
+
+        Raises SceneError for a body that is not there or fixed.
+        """
+        names, (facets, inner), round_cones = self._asked
+        body = self.scene.body(name)
+        weight = [body.mass * g for g in self.scene.gravity]
+        arm = [x - y for x, y in zip(body.center_of_mass, body.centroid, strict=True)]
+        cone = cast(Cone, ROUND if round_cones else inner)
+        push = {name: (*weight, *_moment(arm, weight))}
+        found = limit(self.scene, push, blocks=names, facets=facets, cone=cone)
+        low, high = (body.density * (1.0 + t) for t in found.bounds)
+        return (max(low, 0.0), high) if high >= 0.0 else None
+
     def __str__(self) -> str:
         moving = f"{len(self.mechanism)} of {counted(len(self.names), 'block')}"
         falls = f"{moving} ({shorten(self.mechanism)})"
@@ -157,6 +174,14 @@ class Margin(Drawn):
         """Write `to_dict` (.json), or the picture of the collapse."""
         if not save_json(self, path):
             self.draw(path, dpi=dpi)
+
+
+def _moment(arm: Sequence[float], force: Sequence[float]) -> tuple[float, ...]:
+    """Of a force on an arm: one number in the plane, three in space."""
+    x, y, *z = arm
+    a, b, *c = force
+    turn = x * b - y * a
+    return (y * c[0] - z[0] * b, z[0] * a - x * c[0], turn) if z else (turn,)
 
 
 def margin(
