@@ -725,11 +725,13 @@ def plan(
     cones: tuple[int, str] | None = None,
     hold: int = 0,
     directions: Sequence[tuple[float, float, float]] | None = None,
+    margin: float = 0.0,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
     `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
-    Blocks leave along straight lines if there are `directions`, be they none.
+    Blocks leave along straight lines if there are `directions`, be they none. With a `margin`, in
+    g, "reuse" tests every structure under accelerations to all sides.
     """
 
 def forces_along(

@@ -119,7 +119,7 @@ impl StabilityTest for Callback {
 
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // those of the Python function
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, directions=None))]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, directions=None, margin=0.0))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -132,11 +132,12 @@ pub fn plan(
     cones: Option<(usize, String)>,
     hold: usize,
     directions: Option<Vec<[f64; 3]>>,
+    margin: f64,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
-    let conditions = Conditions { hold, clear_path: directions.map(|directions| ClearPath { directions }) };
+    let conditions = Conditions { hold, clear_path: directions.map(|directions| ClearPath { directions }), margin };
     let mut watch = Watch::new(progress);
     let signals = watch.signals.clone();
     let start = Instant::now();

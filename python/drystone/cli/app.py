@@ -25,7 +25,7 @@ from drystone.equilibrium.contact_force import WhichForces
 from drystone.equilibrium.margins import LoadsUnder
 from drystone.many.engines import EngineName
 from drystone.motion.modes import Formulation, Reuse
-from drystone.planning.search import StabilityTest
+from drystone.planning.search import OrderOfPlan, StabilityTest
 
 app = typer.Typer(
     help="Does it stand, how does it move, and in which order can it be taken apart? "
@@ -163,6 +163,13 @@ def plan(
             "--clear-path", help="Every block must be able to leave along a straight line."
         ),
     ] = False,
+    margin: Annotated[
+        float,
+        typer.Option(min=0.0, metavar="G", help="Every structure bears this acceleration, in g."),
+    ] = 0.0,
+    order: Annotated[
+        OrderOfPlan, typer.Option(help="The first found, or that with the largest smallest margin.")
+    ] = "any",
     facets: Facets = 8,
     cone: Pyramid = "inscribed",
     as_json: AsJson = False,
@@ -200,6 +207,8 @@ def plan(
 
         if threads is not None:
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
+        if margin or order != "any":
+            raise InputError(f"{scene} is a folder: --margin and --order are for one scene")
         where = engine or "threads"
         limits = (node_limit, time_limit)
         return plan_many.run(
@@ -227,6 +236,8 @@ def plan(
         threads,
         hold,
         clear_path,
+        margin,
+        order,
         facets,
         cone,
         as_json,

@@ -21,7 +21,7 @@ from drystone.common.progress import ForcesProgress, PlanProgress
 from drystone.common.text import shown
 from drystone.common.units import scale_of
 from drystone.planning.answer import Plan
-from drystone.planning.search import StabilityTest, plan
+from drystone.planning.search import OrderOfPlan, StabilityTest, plan
 
 MOST_POINTS = 200_000
 """What hands bear is not computed of plans with more contact points, those of all steps together:
@@ -37,6 +37,8 @@ def run(
     threads: int | None,
     hold: int,
     clear_path: bool,
+    margin: float,
+    order: OrderOfPlan,
     facets: int,
     cone: Pyramid,
     as_json: bool,
@@ -56,6 +58,8 @@ def run(
             threads,
             hold,
             clear_path,
+            margin=margin,
+            order=order,
             facets=facets,
             cone=cone,
         )
@@ -90,6 +94,8 @@ def _print(found: Plan, picture: Path | None) -> None:
         told.add_row("falls with any of", names(found.falls_next) or "nothing tried")
         if found.whole is not None:
             told.add_row("the whole assembly", str(found.whole))
+    if found.margin and found.found:
+        told.add_row("bears sideways, in g", " ".join(f"{m:.3g}" for m in found.margins))
     if any(found.holds):
         told.add_row("hold and release", _hold_steps(found))
         if len(found.scene.contacts) * len(found.order or found.reached) <= MOST_POINTS:

@@ -6,16 +6,18 @@ import copy
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
 from drystone import _core
 from drystone.common import later
-from drystone.common.cones import CONES, FACETS
+from drystone.common.cones import CONES, FACETS, Cone
 from drystone.common.drawn import DPI, Paged, is_film
 from drystone.common.json_text import save_json, write_json
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.common.units import quantity
 from drystone.equilibrium.contact_force import CANONICAL, WhichForces
+from drystone.equilibrium.limits import finite
+from drystone.equilibrium.margins import margin
 from drystone.equilibrium.verdict import Verdict
 from drystone.scene import Scene
 
@@ -117,9 +119,19 @@ class Plan(Paged):
     cones: tuple[int, str] = (FACETS, CONES[0])
     """In space: the number of edges of the pyramids taken as friction cones, and whether they are
     "inscribed" or "circumscribed"."""
+    margin: float = 0.0
+    """The horizontal acceleration, in g, that every structure had to bear."""
+    _margins: list[float] = field(default_factory=list, repr=False)
 
     @classmethod
-    def _of(cls, core: _core.Plan, test: str, scene: Scene, cones: tuple[int, str]) -> Plan:
+    def _of(
+        cls,
+        core: _core.Plan,
+        test: str,
+        scene: Scene,
+        cones: tuple[int, str],
+        margin: float = 0.0,
+    ) -> Plan:
         return cls(
             core.found,
             core.status,
@@ -142,10 +154,25 @@ class Plan(Paged):
             test,
             scene,
             cones,
+            margin,
         )
 
     def __copy__(self) -> Plan:
         return replace(self, scene=copy.copy(self.scene), whole=copy.copy(self.whole))
+
+    @property
+    def margins(self) -> tuple[float, ...]:
+        """Of every structure on the way the least horizontal acceleration that brings it down, in
+        g: `margins[k]` while all but the first k blocks of `order` stand, with nothing held. As
+        `drystone.margin` finds it, with the plan's cones; computed when first read. Without an
+        order those of `reached`, the last put up taken away first."""
+        if not self._margins:
+            blocks = self.order or self.reached[::-1]
+            facets, cone = self.cones[0], cast(Cone, self.cones[1])
+            for k in range(len(blocks)):
+                found = margin(self.scene, blocks[k:], facets=facets, cone=cone)
+                self._margins.append(found.acceleration)
+        return tuple(self._margins)
 
     @property
     def hold_steps(self) -> list[tuple[str, str, int]]:
@@ -191,11 +218,14 @@ class Plan(Paged):
             f"{quantity(self.test_seconds, 's')} in tests of {quantity(self.seconds, 's')}"
         )
         if self.found:
+            bearing = f", each bearing {self.margin:.3g} g sideways" if self.margin else ""
             return (
-                f"Order found for {counted(len(self.order), 'block')}; {work}.\n"
+                f"Order found for {counted(len(self.order), 'block')}{bearing}; {work}.\n"
                 f"Remove first: {shorten(self.order)}.{self._said_of_holds()}"
             )
         text = f"{ENDINGS.get(self.status, self.status)}; {work}."
+        if self.margin:
+            text = f"With a margin of {self.margin:.3g} g: {text[0].lower()}{text[1:]}"
         if self.status == "whole_falls" and self.whole is not None:
             # What its blocks do not bear on; its own first line says no more than this one.
             text += "".join(f"\n{line}" for line in str(self.whole).splitlines()[1:])
@@ -238,6 +268,11 @@ class Plan(Paged):
             "reached": list(self.reached),
             "falls_next": list(self.falls_next),
             "holds": [list(held) for held in self.holds] if any(self.holds) else [],
+            **(
+                {"margin": self.margin, "margins": [finite(m) for m in self.margins]}
+                if self.margin
+                else {}
+            ),
             "hold_steps": [list(step) for step in self.hold_steps],
             "directions": [list(direction) for direction in self.directions],
             "blocked": [

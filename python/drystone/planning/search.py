@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Callable, Sequence
 from typing import Literal, TypeAlias, get_args
 
@@ -10,12 +11,17 @@ from drystone import _core
 from drystone.common.cones import CONES, FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.numbers import number, whole
 from drystone.planning.answer import Plan
+from drystone.planning.robust import robust
 from drystone.scene import Scene
 from drystone.scene.scene import scene_of
 
 StabilityTest: TypeAlias = Literal["reuse", "reuse-dantzig", "lcp", "lp", "lp-warm"]
 TESTS = get_args(StabilityTest)
 """The stability tests `plan` knows: see there."""
+
+OrderOfPlan: TypeAlias = Literal["any", "robust"]
+ORDERS = get_args(OrderOfPlan)
+"""The first order found, or the one whose smallest margin is largest."""
 
 Progress = Callable[[int, int, int], None]
 """Called a few times a second with (tests done, blocks placed, blocks in all). Before the first
@@ -34,6 +40,8 @@ def plan(
     clear_path: bool = False,
     directions: Sequence[Sequence[float]] | None = None,
     *,
+    margin: float = 0.0,
+    order: OrderOfPlan = "any",
     facets: int = FACETS,
     cone: Pyramid = INSCRIBED,
 ) -> Plan:
@@ -85,6 +93,13 @@ def plan(
 
     Raises SceneError for bodies that overlap, and ValueError for arguments that cannot be used.
 
+    With `margin` every structure, the complete one too, has to stand under any horizontal
+    acceleration up to so many g (in space up to 2 % more in some directions); permanent loads stay
+    as they are. It goes with "reuse" and with nothing held. `order` "robust" looks for the order
+    whose smallest margin is largest, to 0.1 % of it or 1e-4 g, by plans with growing margins; the
+    limits are those of each. No order has more than the complete structure itself. `Plan.margins`
+    are those of the structures on the way.
+
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found
     True
@@ -98,6 +113,13 @@ def plan(
         number(time_limit, "time_limit")
     if hold < 0:
         raise ValueError(f"hold is {hold}: it must be zero or more")
+    if order not in ORDERS:
+        raise ValueError(f"unknown order {order!r}: choose one of {', '.join(ORDERS)}")
+    least = number(margin, "margin")
+    if not 0 <= least < math.inf:
+        raise ValueError(f"margin is {margin}: it must be zero or more, in g")
+    if (least > 0 or order == "robust") and (hold or test != "reuse"):
+        raise ValueError('margins go with test="reuse" and hold=0')
     if directions is not None and not clear_path:
         raise ValueError("directions are for straight ways out: give clear_path=True with them")
     for limit, what in ((node_limit, "node_limit"), (time_limit, "time_limit")):
@@ -107,8 +129,9 @@ def plan(
         raise ValueError(f"threads is {threads}: it must be one or more")
     cones = core_cones(facets, cone)
     scene = copy.copy(scene_of(scene))  # the one planned, whatever becomes of it
-    return Plan._of(
-        _core.plan(
+
+    def planned(with_margin: float) -> Plan:
+        core = _core.plan(
             scene._core,
             _stability_test(scene, test, cones),
             node_limit,
@@ -119,11 +142,11 @@ def plan(
             cones,
             hold,
             [_way(scene, way) for way in directions or ()] if clear_path else None,
-        ),
-        test,
-        scene,
-        cones,
-    )
+            with_margin,
+        )
+        return Plan._of(core, test, scene, cones, with_margin)
+
+    return robust(planned, least) if order == "robust" else planned(least)
 
 
 def _way(scene: Scene, way: Sequence[float]) -> tuple[float, float, float]:

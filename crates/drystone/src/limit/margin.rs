@@ -93,7 +93,7 @@ pub fn margin<S: Assemble>(
     Ok(margin)
 }
 
-fn unit_of(assembly: &Assembly) -> Result<[f64; 3], SceneError> {
+pub(super) fn unit_of(assembly: &Assembly) -> Result<[f64; 3], SceneError> {
     let gravity = assembly.gravity();
     let size = length(gravity);
     if size > 0.0 { Ok(gravity.map(|g| g / size)) } else { Err(SceneError::NoGravity) }
@@ -101,7 +101,7 @@ fn unit_of(assembly: &Assembly) -> Result<[f64; 3], SceneError> {
 
 /// Horizontal axes: to the right of who stands upright in the plane; in space the world's x axis made horizontal, and the one a
 /// quarter turn counter-clockwise from it, seen from above.
-fn horizontal(down: [f64; 3], in_plane: bool) -> [[f64; 3]; 2] {
+pub(super) fn horizontal(down: [f64; 3], in_plane: bool) -> [[f64; 3]; 2] {
     let [x, y, _] = down;
     if in_plane {
         let right = [-y, x, 0.0];
@@ -113,7 +113,7 @@ fn horizontal(down: [f64; 3], in_plane: bool) -> [[f64; 3]; 2] {
 }
 
 /// Every weight sideways; of loads along gravity too if they turn.
-fn sideways<S: Assemble>(
+pub(super) fn sideways<S: Assemble>(
     assembly: &Assembly,
     scene: &SceneOf<S>,
     blocks: &BlockSet,

@@ -9,6 +9,7 @@
 //! which the loads do no more work than they must. With friction both are those of the associated flow rule, in which what
 //! slides also opens; see docs/theory/limit-loads.md.
 
+mod accelerated;
 mod ends;
 mod interior;
 mod margin;
@@ -16,6 +17,7 @@ mod region;
 mod root;
 mod walk;
 
+pub(crate) use accelerated::accelerated;
 pub use ends::{End, Limit};
 pub use margin::{Asked, Loads, Margin, least_friction, margin};
 

@@ -35,6 +35,7 @@ mod stability;
 #[cfg(test)]
 mod takedown_tests;
 mod touching;
+mod under_each;
 mod visited;
 mod whole;
 

@@ -12,12 +12,14 @@ use super::reuse::Reuse;
 use super::search::{Clock, Search};
 use super::stability::{FromScratch, PlanError, ReuseDantzig, StabilityTest, Test};
 use super::touching::Touching;
+use super::under_each::UnderEach;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
 use crate::{
     check::{Verdict, check_blocks},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockSet},
     interrupt::Interrupt,
+    limit::accelerated,
     scene::SceneOf,
 };
 use drystone_lcp::Status;
@@ -85,9 +87,51 @@ pub fn plan_assembly_under<S: Assemble>(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
+    if conditions.margin != 0.0 {
+        return plan_with_margin(scene, assembly, conditions, limits, monitor);
+    }
     with_named(assembly, test, limits, |test, limits| {
         plan_with_under(scene, assembly, test, conditions, limits, monitor)
     })
+}
+
+/// [`plan_assembly_under`] by [`Test::Reuse`], where every structure has to have a margin.
+fn plan_with_margin<S: Assemble>(
+    scene: &SceneOf<S>,
+    assembly: &Assembly,
+    conditions: &Conditions,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    let start = Instant::now();
+    let refused = |parameter: &str, found: String, expected: &str| {
+        let (scene, parameter, expected) = ("plan".into(), parameter.into(), expected.into());
+        SceneError::BadParameter { scene, parameter, found, expected }
+    };
+    if !(conditions.margin > 0.0 && conditions.margin.is_finite()) {
+        return Err(refused("margin", conditions.margin.to_string(), "zero or more, over gravity").into());
+    }
+    if conditions.hold > 0 {
+        return Err(refused("hold", conditions.hold.to_string(), "0 where there is a margin").into());
+    }
+    let stopped = || Ok(Plan::stopped(limits.stopped(start), start.elapsed()));
+    let Some(cases) = limits.interrupt(start).run(|| accelerated(assembly, scene, conditions.margin)) else {
+        return stopped();
+    };
+    let (cases, blocks) = (cases?, assembly.every_block());
+    let whole = || cases.iter().all(|case| check_blocks(case, &blocks).stable);
+    match limits.interrupt(start).run(whole) {
+        None => return stopped(),
+        Some(true) => {}
+        Some(false) => {
+            let whole = Some(check_blocks(assembly, &blocks));
+            return Ok(Plan { whole, ..Plan::stopped(Outcome::WholeFalls, start.elapsed()) });
+        }
+    }
+    let mut test = UnderEach::new(&cases);
+    let mut plan = plan_with_under(scene, assembly, &mut test, conditions, limits.after(start), monitor)?;
+    plan.total = start.elapsed();
+    Ok(plan)
 }
 
 /// Plans with a test by name, whose setting up counts, and within what that leaves of the limits.
@@ -312,7 +356,9 @@ fn search_unheld(
     clock: &mut Clock<'_>,
 ) -> Result<Found, PlanError> {
     let blocks = assembly.blocks();
-    let mut search = InTurn::new(assembly, touching, paths, first_turn(blocks));
+    // The other search knows the assembly's own loads only.
+    let turn = if test.anew().is_some() { usize::MAX } else { first_turn(blocks) };
+    let mut search = InTurn::new(assembly, touching, paths, turn);
     let Checked { whole, time: whole_time, searched } = if check_beside(clock.limits, blocks) {
         check_beside_search(assembly, &mut search, test, clock)
     } else {
@@ -331,7 +377,8 @@ fn search_unheld(
             Vec::new()
         }
         Outcome::NoOrder => {
-            until_stopped(clock.run(|| dead_end(&mut Reuse::new(assembly), touching, paths, &mut reached)))?
+            let mut again = test.anew().unwrap_or_else(|| Box::new(Reuse::new(assembly)));
+            until_stopped(clock.run(|| dead_end(again.as_mut(), touching, paths, &mut reached)))?
         }
         _ => Vec::new(),
     };

@@ -67,6 +67,11 @@ pub trait StabilityTest {
         None
     }
 
+    /// The same test at the bare supports, of one that is not about the assembly's own loads; None if it is.
+    fn anew(&self) -> Option<Box<dyn StabilityTest + '_>> {
+        None
+    }
+
     /// Where blocks may be held: collapse motions of the sub-assembly just tested, so many that no hold stops all of them.
     fn collapses_however_held(&self) -> &[Collapse] {
         &[]

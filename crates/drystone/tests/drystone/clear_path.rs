@@ -9,7 +9,7 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 fn cleared(scene: &Scene, shortcuts: bool, hold: usize) -> Plan {
-    let conditions = Conditions { hold, clear_path: Some(ClearPath::default()) };
+    let conditions = Conditions { hold, clear_path: Some(ClearPath::default()), ..Conditions::default() };
     plan_under(scene, Test::Reuse, &conditions, Limits { shortcuts, ..Limits::default() }, &mut Quiet).unwrap()
 }
 
@@ -198,7 +198,7 @@ fn in_space_a_tongue_leaves_along_its_groove() {
         for (name, y, fixed) in [("front", -2.5, fixed_ends[0]), ("back", 2.5, fixed_ends[1])] {
             scene.add_cuboid(at([0.0, y, 0.5]), [1.0; 3], named(name, fixed)).unwrap();
         }
-        let conditions = Conditions { hold: 0, clear_path: Some(ClearPath::default()) };
+        let conditions = Conditions { hold: 0, clear_path: Some(ClearPath::default()), ..Conditions::default() };
         plan_under(&scene, Test::Reuse, &conditions, Limits::default(), &mut Quiet).unwrap()
     };
     let plan = closed_by([true, true]);
