@@ -173,7 +173,8 @@ class _Robot:
         self, collision: ET.Element, pose: Pose, what: str, body: Rigid
     ) -> list[NDArray[np.float64]]:
         here = pose.then(self._origin(collision))
-        shape = next(iter(collision.find("geometry") or ()), None)
+        geometry = collision.find("geometry")
+        shape = None if geometry is None else next(iter(geometry), None)
         if shape is None:
             raise FormatError(f"{what} has no geometry")
         if shape.tag == "box":
