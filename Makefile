@@ -145,7 +145,8 @@ $(NOTICES): Cargo.lock viewer/node_modules/.ready release/notices.py
 	@echo "== gathering licences"
 	@$(BIN)/python release/notices.py $@
 
-# Sources with all that Node and cargo make for them: who builds from them needs Rust only.
+# Sources with all that Node and cargo make for them: who builds from them needs Rust only. (maturin
+# talks while it packs; what it says is shown if it fails.)
 sdist: tools $(VENV)/.release $(PAGES) $(NOTICES)
 	@echo "== packing the sources"
 	@rm -f dist/*.tar.gz
