@@ -183,17 +183,41 @@ def test_a_step_too_fast_ends_the_run_and_keeps_it() -> None:
     scene = ds.Scene(gravity=(0, 0))
     scene.add_box((10, 0), (4, 4), name="wall", fixed=True)
     scene.add_box((0, 0), (1, 1), name="block")
-    run = ds.simulate(scene, steps=10, velocities={"block": (300, 0, 2400)})
+    run = ds.simulate(scene, steps=10, velocities={"block": (300, 0, 2.4e6)})
     assert (run.status, run.finished) == ("too_fast", False)
     assert 0 < run.steps < 10
     assert '"block" turns' in str(run)
     world = ds.World(scene)
-    world.set_velocity("block", (300, 0, 2400))
+    world.set_velocity("block", (300, 0, 2.4e6))
     world.run(run.steps)
     before = world.state_hash()
-    with pytest.raises(ds.StepError, match="more than a radian"):
+    with pytest.raises(ds.StepError, match="more than a thousand radians"):
         world.step()
     assert world.state_hash() == before
+
+
+def test_what_turns_fast_is_stepped_in_parts() -> None:
+    """A game's step, and a block that turns by more than a radian in it on the ground."""
+    scene = ds.Scene(dimension=3, friction=0.5)
+    scene.add_box((0, 0, -0.5), (20, 20, 1), name="ground", fixed=True)
+    scene.add_box((0, 0, 0.2), (0.4, 0.4, 0.4), name="block")
+    run = ds.simulate(scene, 1 / 60, 60, velocities={"block": (0, 0, 0, 0, 0, 70)})
+    assert run.finished
+    assert np.abs(run.velocities[-1, 1]).max() < 70
+    assert run.penetration.max() < 1e-6
+
+
+def test_which_steps_count_as_exact_can_be_asked_for() -> None:
+    scene = ds.scenes.slope(35, friction=0.5, width=0.7)
+    usual = ds.simulate(scene, steps=50)
+    assert usual.status == "finished"
+    strict = ds.simulate(scene, steps=50, coulomb_tolerance=1e-300)
+    np.testing.assert_array_equal(usual.poses, strict.poses)
+    coarse = ds.simulate(scene, steps=50, coulomb_tolerance=0.5)
+    assert coarse.solves.sum() < usual.solves.sum()
+    for wrong in (0, -1, 2, float("nan")):
+        with pytest.raises(ds.SimulationError, match="coulomb_tolerance is"):
+            ds.World(scene, coulomb_tolerance=wrong)
 
 
 def test_a_world_goes_on_from_its_bytes() -> None:

@@ -3,9 +3,11 @@
 /// Tolerances and limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Largest error of Coulomb's law that counts as solved, m/s. None: [`RELATIVE_TOLERANCE`] times the largest relative velocity
+    /// Largest error of Coulomb's law that counts as solved, m/s. None: `relative_tolerance` times the largest relative velocity
     /// that the contacts would have without impulses, or times `scale` if that is larger.
     pub tolerance: Option<f64>,
+    /// See `tolerance`.
+    pub relative_tolerance: f64,
     /// A speed that the caller thinks of as one, m/s: what gravity gives in a step, say.
     pub scale: f64,
     /// Most Newton steps in one island.
@@ -18,6 +20,6 @@ pub const RELATIVE_TOLERANCE: f64 = 1e-8;
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: None, scale: 0.0, newton_steps: 400 }
+        Self { tolerance: None, relative_tolerance: RELATIVE_TOLERANCE, scale: 0.0, newton_steps: 400 }
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     islands::islands,
     method,
     problem::Bodies,
-    settings::{RELATIVE_TOLERANCE, Settings},
+    settings::Settings,
     solution::{Counts, Solution, Status},
     system::{State, System},
 };
@@ -79,7 +79,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
         }
     }
     let fastest = (0..system.len()).map(|k| speed(system, k)).fold(0.0, f64::max);
-    let tolerance = settings.tolerance.unwrap_or(RELATIVE_TOLERANCE * fastest.max(settings.scale));
+    let tolerance = settings.tolerance.unwrap_or(settings.relative_tolerance * fastest.max(settings.scale));
     let (mut counts, mut worst) = (Counts::default(), 0.0_f64);
     let mut place = vec![0; system.free.len()];
     for (contacts, chunks) in islands(system) {

@@ -86,8 +86,9 @@ fn push<S: Moving>(wrench: &[f64], at: Option<&[f64]>) -> PyResult<(S::Velocity,
 
 #[pymethods]
 impl World {
+    #[allow(clippy::too_many_arguments)] // they are Python's
     #[new]
-    #[pyo3(signature = (scene, dt, reuse, restitution, formulation, friction_cones=None))]
+    #[pyo3(signature = (scene, dt, reuse, restitution, formulation, coulomb_tolerance, friction_cones=None))]
     fn new(
         py: Python<'_>,
         scene: &Scene,
@@ -95,10 +96,12 @@ impl World {
         reuse: &str,
         restitution: f64,
         formulation: &str,
+        coulomb_tolerance: f64,
         friction_cones: Option<(usize, String)>,
     ) -> PyResult<Self> {
         let (reuse, formulation) = (named_reuse(reuse)?, named_formulation(formulation)?);
-        let options = Options { dt, reuse, restitution, formulation, cones: cones(friction_cones)? };
+        let cones = cones(friction_cones)?;
+        let options = Options { dt, reuse, restitution, formulation, cones, coulomb_tolerance };
         let scene = scene.now();
         let made = interruptible(py, || {
             Ok(match AnyScene::clone(&scene) {
@@ -162,6 +165,11 @@ impl World {
     #[getter]
     fn restitution(&self) -> PyResult<f64> {
         Ok(self.options()?.restitution)
+    }
+
+    #[getter]
+    fn coulomb_tolerance(&self) -> PyResult<f64> {
+        Ok(self.options()?.coulomb_tolerance)
     }
 
     #[getter]

@@ -261,6 +261,10 @@ def simulate(
         Formulation,
         typer.Option(help="Solve for impulses and velocities, or for forces and accelerations."),
     ] = "velocity",
+    coulomb_tolerance: Annotated[
+        float,
+        typer.Option(help="Count steps further from Coulomb's law, as a share of the speeds."),
+    ] = 1e-8,
     facets: Facets = 8,
     cone: Pyramid = "inscribed",
     forces: Annotated[
@@ -287,6 +291,7 @@ def simulate(
         reuse,
         restitution,
         formulation,
+        coulomb_tolerance,
         facets,
         cone,
         forces,

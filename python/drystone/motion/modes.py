@@ -13,6 +13,9 @@ Formulation: TypeAlias = Literal["velocity", "acceleration"]
 FORMULATIONS = get_args(Formulation)
 """What the unknowns of a step may be: see `simulate`."""
 
+COULOMB_TOLERANCE = 1e-8
+"""Steps off Coulomb's law by more than this share of the speeds are not exact: see `simulate`."""
+
 MOST_STEPS = 10**9
 """Steps of one run: it holds all of them in memory."""
 

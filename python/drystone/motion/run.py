@@ -80,10 +80,10 @@ class Run(Paged):
     friction_error: NDArray[np.float64]
     """(k,): how far the worst contact is from Coulomb's law, m/s."""
     exact: NDArray[np.bool_]
-    """(k,): whether `friction_error` is small enough. In the plane that is 1e-9 m/s, or 1e-9 of the
-    speed above 1 m/s; in space 1e-8 of the speed of the fastest contact, or of the speed that
-    gravity gives in a step if that is more. Otherwise the step was made with the best solution that
-    was found."""
+    """(k,): whether `friction_error` is small enough: `coulomb_tolerance` times the speed of the
+    fastest contact, or the speed that gravity gives in a step if that is more. Steps that pivots
+    solve, all in the plane, are exact within 1e-9 m/s, or 1e-9 of the speed above 1 m/s, too.
+    Otherwise the step was made with the best solution that was found."""
     penetration: NDArray[np.float64]
     """(k,): deepest overlap at the end of the step, metres."""
     force_starts: NDArray[np.int64]

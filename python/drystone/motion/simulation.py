@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.numbers import number, vector, whole
-from drystone.motion.modes import MOST_STEPS, Formulation, Progress, Reuse
+from drystone.motion.modes import COULOMB_TOLERANCE, MOST_STEPS, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.scene import Scene
 from drystone.scene.scene import scene_of
@@ -21,6 +21,7 @@ def simulate(
     *,
     restitution: float = 0.0,
     formulation: Formulation = "velocity",
+    coulomb_tolerance: float = COULOMB_TOLERANCE,
     velocities: Mapping[str, Sequence[float]] | None = None,
     facets: int = FACETS,
     cone: Pyramid = INSCRIBED,
@@ -34,8 +35,8 @@ def simulate(
 
     `velocities` are those at the beginning, by name: (m/s, m/s, rad/s); in space six numbers, m/s
     along the axes and rad/s about them. Bodies that are not named begin at rest. `restitution`,
-    from 0 to 1, is the share of the speed with which colliding bodies part. With `forces` the run
-    holds the contact forces of every step.
+    from 0 to 1, is the share of the speed with which colliding bodies part; it is less in a step in
+    which it would give energy. With `forces` the run holds the contact forces of every step.
 
     `reuse` says what a step takes over from the step before. The motion is the same:
 
@@ -56,13 +57,18 @@ def simulate(
     Otherwise, and in steps for which no answer was found on round cones, they are pyramids:
     `facets` and `cone` ("inscribed" or "circumscribed") are as in `check`.
 
+    A step counts as exact (`Run.exact`) if it is off Coulomb's law by at most `coulomb_tolerance`
+    times the speed of the fastest contact, or the speed that gravity gives in a step if that is
+    more. Where a body turns by more than a radian in a step near another, the step is made in
+    several shorter ones.
+
     If a step cannot be made, or after Ctrl-C, the run ends; its status says why, and the steps
     before are kept. A coefficient of friction above 100 counts as 100: nothing slides unless it is
     pushed within 0.6 degrees of the face.
 
-    Raises SimulationError for a `dt` outside 1e-12 to 1e12 s, a `restitution` outside 0 to 1 or
-    velocities that are not finite or beyond 1e12, and SceneError for bodies that overlap, or facets
-    that are not 3 to 1000.
+    Raises SimulationError for a `dt` outside 1e-12 to 1e12 s, a `restitution` outside 0 to 1, a
+    `coulomb_tolerance` that is not above 0 or is above 1, or velocities that are not finite or
+    beyond 1e12, and SceneError for bodies that overlap, or facets that are not 3 to 1000.
 
     >>> import drystone as ds
     >>> run = ds.simulate(ds.scenes.fall7(), steps=240)
@@ -86,7 +92,7 @@ def simulate(
         )
     cones = core_cones(facets, cone)
     start, dt = scene_of(scene)._core, number(dt, "dt")
-    world = _core.World(start, dt, reuse, restitution, formulation, cones)
+    world = _core.World(start, dt, reuse, restitution, formulation, coulomb_tolerance, cones)
     for name, velocity in (velocities or {}).items():
         world.set_velocity(name, velocity_of(world, name, velocity))
     begun = Scene._of(world.scene)

@@ -11,7 +11,7 @@ from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.drawn import Drawn
 from drystone.common.numbers import name_of, number, whole
 from drystone.equilibrium.contact_force import ContactForce
-from drystone.motion.modes import Formulation, Progress, Reuse
+from drystone.motion.modes import COULOMB_TOLERANCE, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.motion.simulation import numbers, velocity_of
 from drystone.scene import Point, Scene
@@ -80,13 +80,16 @@ class World(Adding, Drawn):
         *,
         restitution: float = 0.0,
         formulation: Formulation = "velocity",
+        coulomb_tolerance: float = COULOMB_TOLERANCE,
         facets: int = FACETS,
         cone: Pyramid = INSCRIBED,
     ) -> None:
         """Begin with a scene at rest; the arguments and errors are those of `simulate`."""
         cones = core_cones(facets, cone)
         start, dt = scene_of(scene)._core, number(dt, "dt")
-        self._core = _core.World(start, dt, reuse, restitution, formulation, cones)
+        self._core = _core.World(
+            start, dt, reuse, restitution, formulation, coulomb_tolerance, cones
+        )
 
     def step(self) -> StepRecord:
         """Make one step. StepError if it cannot be made; the world is then as it was."""

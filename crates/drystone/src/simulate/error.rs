@@ -22,6 +22,12 @@ pub enum SimulationError {
         /// The value.
         value: f64,
     },
+    /// A tolerance of Coulomb's law that is not above 0, or above 1.
+    #[error("coulomb_tolerance is {value}: give a share of the contacts' speeds above 0, at most 1; 1e-8 is usual")]
+    CoulombTolerance {
+        /// The value.
+        value: f64,
+    },
     /// A formulation that there is in the plane only.
     #[error("formulation \"{formulation}\" is for scenes in the plane: in space give \"velocity\"")]
     NoSuchLaw {
@@ -91,9 +97,10 @@ pub enum StepFailure {
         /// The solver's status.
         status: &'static str,
     },
-    /// A block turns by more than a radian in the step within reach of another.
+    /// A block turns by more than a thousand radians in the step within reach of another. (From one radian on a step is made in
+    /// several.)
     #[error(
-        "block \"{body}\" turns by more than a radian within one step next to \"{other}\": \
+        "block \"{body}\" turns by more than a thousand radians within one step next to \"{other}\": \
          take a time step of {dt:.3e} s or less"
     )]
     TooFast {
@@ -101,7 +108,7 @@ pub enum StepFailure {
         body: String,
         /// Name of the other.
         other: String,
-        /// A time step in which it turns by less.
+        /// A time step in which it turns by no more than one radian.
         dt: f64,
     },
     /// A position or a velocity has left its [`bounds`](crate::bounds), or is no number any more.

@@ -45,7 +45,7 @@ pub use error::{SimulationError, StepFailure};
 pub use formulate::contact_problem::Velocity;
 pub use kinematics::Kinematics;
 pub use moving::Moving;
-pub use options::{Formulation, Options, Reuse};
+pub use options::{COULOMB_TOLERANCE, Formulation, Options, Reuse};
 pub use record::{Inconsistent, StepRecord};
 pub use run::{Ending, Run, run};
 pub use snapshot::snapshot_dimension;

@@ -16,7 +16,14 @@ pub struct Options {
     pub formulation: Formulation,
     /// What stands for friction cones in space.
     pub cones: Cones,
+    /// How far a step may be from Coulomb's law to count as exact, of the largest of the contacts' speeds and what gravity gives in a
+    /// step; from above 0 to 1. See [`StepRecord::exact`](super::StepRecord::exact).
+    pub coulomb_tolerance: f64,
 }
+
+/// Eight digits of a double, a margin of four beside what rounding leaves in well scaled problems and two beside what it
+/// leaves where friction decides.
+pub const COULOMB_TOLERANCE: f64 = 1e-8;
 
 impl Default for Options {
     fn default() -> Self {
@@ -26,6 +33,7 @@ impl Default for Options {
             restitution: 0.0,
             formulation: Formulation::Velocity,
             cones: Cones::default(),
+            coulomb_tolerance: COULOMB_TOLERANCE,
         }
     }
 }

@@ -26,8 +26,10 @@ pub struct StepRecord {
     /// Largest speed, m/s, at which a contact that bears parts or closes against Coulomb's law: what is left of the fixed
     /// point's iteration, at most [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED), relative above 1 m/s, unless it did not converge.
     pub friction_error: f64,
-    /// Whether that is within what is asked for: 1e-8 of the fastest contact's speed and of what gravity gives in a step on round cones,
-    /// [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED) on pyramids and in the plane. Where it is not, the step was made with the best that was found.
+    /// Whether that is within what is asked for: the share
+    /// [`coulomb_tolerance`](super::Options::coulomb_tolerance) of the fastest contact's speed or of what gravity gives in a step, where
+    /// pivots solve it at least [`FRICTION_ACCEPTED`](super::FRICTION_ACCEPTED). Where it is not, the step was made with the best that was
+    /// found.
     pub exact: bool,
     /// Contacts at which bodies collided, so that impulses came before the forces; acceleration level only.
     pub collisions: usize,
@@ -37,6 +39,30 @@ pub struct StepRecord {
     pub penetration: f64,
     /// Times overlaps were taken back; their pivots are among the step's.
     pub projections: usize,
+    /// Steps that it was made in: more than one where a body turned by more than a radian near another.
+    pub substeps: usize,
+}
+
+impl StepRecord {
+    /// This and the next part of the same step as one.
+    pub(super) fn then(self, next: Self) -> Self {
+        Self {
+            motionless: self.motionless.iter().zip(&next.motionless).map(|(a, b)| *a && *b).collect(),
+            counts: self.counts + next.counts,
+            solves: self.solves + next.solves,
+            rows_reused: self.rows_reused + next.rows_reused,
+            solve_time: self.solve_time + next.solve_time,
+            time: self.time + next.time,
+            residual: self.residual.max(next.residual),
+            friction_error: self.friction_error.max(next.friction_error),
+            exact: self.exact && next.exact,
+            collisions: self.collisions + next.collisions,
+            inconsistent: self.inconsistent.or(next.inconsistent),
+            projections: self.projections + next.projections,
+            substeps: self.substeps + next.substeps,
+            ..next
+        }
+    }
 }
 
 /// A contact at which no forces obey the conditions, so that the step went by impulses.

@@ -85,6 +85,7 @@ impl<S: Kinematics> Settled<S> {
             inconsistent: None,
             penetration: finder.penetration(),
             projections: 0,
+            substeps: 1,
         })
     }
 }

@@ -23,7 +23,7 @@ use drystone_lcp::sealed::{self, Seal, SealError};
 use serde::{Deserialize, Serialize};
 
 /// 1 and 2 were JSON, without a checksum.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const IN_PLANE: Seal = Seal { kind: *b"DS-WORL2", version: VERSION };
 const IN_SPACE: Seal = Seal { kind: *b"DS-WORL3", version: VERSION };
 
@@ -43,6 +43,7 @@ struct SavedState<S: Moving> {
     restitution: f64,
     formulation: Formulation,
     cones: Cones,
+    coulomb_tolerance: f64,
     velocities: Vec<S::Velocity>,
     forces: Vec<S::Velocity>,
     motionless: Vec<bool>,
@@ -59,6 +60,7 @@ struct Saved<S: Moving> {
     settled: Option<Settled<S>>,
     sliding: Vec<f64>,
     impulses: Vec<S::Vector>,
+    substeps: usize,
     solver: SavedStart<CandidateOf<S>>,
     active_rows: ActiveRows,
 }
@@ -90,6 +92,7 @@ impl<S: Moving> World<S> {
             restitution: self.state.options.restitution,
             formulation: self.state.options.formulation,
             cones: self.state.options.cones,
+            coulomb_tolerance: self.state.options.coulomb_tolerance,
             velocities: self.state.velocities.clone(),
             forces: self.state.forces.clone(),
             motionless: self.state.motionless.clone(),
@@ -113,6 +116,7 @@ impl<S: Moving> World<S> {
             settled: self.settled.clone(),
             sliding: self.previous.sliding.clone(),
             impulses: self.previous.impulses.clone(),
+            substeps: self.previous.substeps,
             solver: self.previous.solver.save(),
             active_rows: self.previous.active_rows.clone(),
         })
@@ -124,10 +128,17 @@ impl<S: Moving> World<S> {
     /// [`SimulationError::Snapshot`] for anything that is not one, whole and undamaged.
     pub fn restore(bytes: &[u8]) -> Result<Self, SimulationError> {
         let saved: Saved<S> = seal::<S>().open(bytes).map_err(fault)?;
-        let SavedState { scene, origin, dt, reuse, restitution, formulation, cones, .. } = &saved.state;
+        let SavedState { scene, origin, dt, reuse, restitution, formulation, cones, coulomb_tolerance, .. } =
+            &saved.state;
         let scene = io::from_json(scene, "its scene").and_then(S::of_any).map_err(fault)?;
-        let options =
-            Options { dt: *dt, reuse: *reuse, restitution: *restitution, formulation: *formulation, cones: *cones };
+        let options = Options {
+            dt: *dt,
+            reuse: *reuse,
+            restitution: *restitution,
+            formulation: *formulation,
+            cones: *cones,
+            coulomb_tolerance: *coulomb_tolerance,
+        };
         let mut world = Self::resting(scene, *origin, options).map_err(fault)?;
         if !saved.fits(world.state.velocities.len()) {
             return Err(fault(UNFIT));
@@ -147,6 +158,7 @@ impl<S: Moving> World<S> {
         previous.at_rest = saved.at_rest;
         previous.sliding = saved.sliding;
         previous.impulses = saved.impulses;
+        previous.substeps = saved.substeps;
         previous.active_rows = saved.active_rows;
         if let Some(before) = &previous.problem {
             let matrix = |q: Vec<f64>| before.problem(&world.state.inverse_mass, q);

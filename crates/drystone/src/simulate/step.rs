@@ -21,19 +21,84 @@ use crate::{
 };
 use std::time::Instant;
 
+/// Shorter steps that one is made in at most: what turns by more radians in a step near another is refused.
+const MOST_SUBSTEPS: usize = 1000;
+
 impl<S: Moving> World<S> {
-    /// Makes one step.
+    /// Makes one step; in several shorter ones where a body turns by more than a radian in it near another.
     ///
     /// # Errors
     /// [`StepFailure`]; the bodies are as they were before then. So they are after a step that is stopped on the way
     /// ([`interrupt`](crate::interrupt)), and the next one takes nothing over.
     pub fn step(&mut self) -> Result<StepRecord, StepFailure> {
-        let made = or_else(self, Self::attempt, Self::forget);
-        if made.is_err() {
+        let made = or_else(self, Self::in_one_or_several, Self::forget);
+        match &made {
+            Ok(record) => {
+                self.steps += 1;
+                self.previous.substeps = record.substeps;
+            }
             // The solver may hold this step's problem already, of which the next one knows nothing.
-            self.forget();
+            Err(_) => self.forget(),
         }
         made
+    }
+
+    fn in_one_or_several(&mut self) -> Result<StepRecord, StepFailure> {
+        match self.attempt() {
+            Err(StepFailure::TooFast { body, other, dt }) => {
+                self.in_several(StepFailure::TooFast { body, other, dt }, dt)
+            }
+            made => made,
+        }
+    }
+
+    /// Makes the step in equal shorter ones of at most `longest` seconds; in still shorter ones from where a body turns faster on.
+    fn in_several(&mut self, refused: StepFailure, longest: f64) -> Result<StepRecord, StepFailure> {
+        let dt = self.state.options.dt;
+        let begin = self.state.clone();
+        let mended = begin.clone();
+        let made = or_else(self, |world| world.parts(refused, longest), |world| world.state = mended);
+        self.state.options.dt = dt;
+        match &made {
+            Ok(record) => self.state.motionless.clone_from(&record.motionless),
+            Err(_) => self.state = begin,
+        }
+        made
+    }
+
+    fn parts(&mut self, mut refused: StepFailure, mut longest: f64) -> Result<StepRecord, StepFailure> {
+        let forces = self.state.forces.clone();
+        let mut seconds = self.state.options.dt;
+        let (mut left, mut made): (usize, Option<StepRecord>) = (1, None);
+        loop {
+            left = ((seconds / longest).ceil() as usize).max(left + 1);
+            if left + made.as_ref().map_or(0, |made| made.substeps) > MOST_SUBSTEPS {
+                return Err(refused);
+            }
+            self.state.options.dt = seconds / left as f64;
+            loop {
+                self.state.forces.clone_from(&forces);
+                match self.attempt() {
+                    Ok(record) => {
+                        seconds -= self.state.options.dt;
+                        left -= 1;
+                        let record = match made.take() {
+                            Some(before) => before.then(record),
+                            None => record,
+                        };
+                        if left == 0 {
+                            return Ok(record);
+                        }
+                        made = Some(record);
+                    }
+                    Err(StepFailure::TooFast { body, other, dt }) => {
+                        (refused, longest) = (StepFailure::TooFast { body, other, dt }, dt);
+                        break;
+                    }
+                    Err(failure) => return Err(failure),
+                }
+            }
+        }
     }
 
     fn attempt(&mut self) -> Result<StepRecord, StepFailure> {
@@ -52,7 +117,6 @@ impl<S: Moving> World<S> {
 
         self.previous.impulses = motion.impulses;
         self.previous.sliding = sliding_of_moving(&problem, motion.sliding, &self.state.motionless);
-        self.steps += 1;
         let record = StepRecord {
             motionless: self.state.motionless.clone(),
             counts: self.previous.solver.counts() - spent + motion.counts + projected.counts,
@@ -68,6 +132,7 @@ impl<S: Moving> World<S> {
             inconsistent: motion.inconsistent,
             penetration: self.finder.penetration(),
             projections: projected.rounds,
+            substeps: 1,
         };
         self.previous.problem = Some(problem);
         self.settled = Settled::of(&self.state, &self.previous, &self.finder, free, &record);
@@ -79,7 +144,6 @@ impl<S: Moving> World<S> {
         let settled = self.settled.as_mut()?;
         let record = settled.again(&self.state, &self.previous, &self.finder, free, begun)?;
         self.state.forces.fill(S::Velocity::default());
-        self.steps += 1;
         Some(record)
     }
 
@@ -97,9 +161,8 @@ impl<S: Moving> World<S> {
             let mut all = [problem.candidates(), &more].concat();
             all.sort_by_key(|candidate| candidate.id);
             let next = previous.formulate(all, &options, gravity);
-            previous.sliding.clone_from(&motion.sliding);
-            previous.impulses.clone_from(&motion.impulses);
-            previous.problem = Some(std::mem::replace(&mut problem, next));
+            previous.take(&problem, &motion);
+            problem = next;
             let earlier = std::mem::replace(&mut motion, law.motion(state, previous, &problem, free)?);
             motion.add_earlier(&earlier);
         }

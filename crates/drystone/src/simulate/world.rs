@@ -79,7 +79,8 @@ impl<S: Moving> World<S> {
     /// A world at rest.
     ///
     /// # Errors
-    /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`], [`SimulationError::NoSuchLaw`];
+    /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`], [`SimulationError::CoulombTolerance`],
+    /// [`SimulationError::NoSuchLaw`];
     /// [`SceneError::Overlap`] if blocks overlap, [`SceneError::BadFacets`].
     pub fn new(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
         let origin = origin_of(&scene);
@@ -91,12 +92,15 @@ impl<S: Moving> World<S> {
     /// The same, of a scene seen from its origin, without a look at overlaps: a step may end with one, and a snapshot may be taken
     /// there.
     pub(super) fn resting(scene: SceneOf<S>, origin: S::Vector, options: Options) -> Result<Self, SimulationError> {
-        let Options { dt, restitution, formulation, cones, .. } = options;
+        let Options { dt, restitution, formulation, cones, coulomb_tolerance, .. } = options;
         if !TIME_STEP.hold(dt) {
             return Err(SimulationError::TimeStep { value: dt });
         }
         if !(0.0..=1.0).contains(&restitution) {
             return Err(SimulationError::Restitution { value: restitution });
+        }
+        if !(coulomb_tolerance > 0.0 && coulomb_tolerance <= 1.0) {
+            return Err(SimulationError::CoulombTolerance { value: coulomb_tolerance });
         }
         cones.check()?;
         if let Some(body) = S::immovable(&scene) {
@@ -164,15 +168,20 @@ impl<S: Moving> World<S> {
         bodies.map(of).sum()
     }
 
-    /// What the bodies gave one another in the last step, in the order of identities.
+    /// What the bodies gave one another in the last step, in the order of identities. Of a step made in several
+    /// ([`StepRecord::substeps`](super::StepRecord::substeps)) what they would have given if all had been as the last one.
     pub fn contact_impulses(&self) -> Vec<ContactImpulse<S::Vector>> {
         let candidates = self.previous.problem.iter().flat_map(ContactProblem::candidates);
-        let given = candidates.zip(&self.previous.impulses).map(|(candidate, impulse)| ContactImpulse {
-            id: candidate.id,
-            point: in_scene(candidate.point, &self.origin),
-            normal: candidate.normal,
-            impulse: *impulse,
-            along_normal: product(&candidate.normal, impulse),
+        let substeps = self.previous.substeps as f64;
+        let given = candidates.zip(&self.previous.impulses).map(|(candidate, impulse)| {
+            let impulse = plus_times(S::Vector::default(), substeps, impulse);
+            ContactImpulse {
+                id: candidate.id,
+                point: in_scene(candidate.point, &self.origin),
+                normal: candidate.normal,
+                impulse,
+                along_normal: product(&candidate.normal, &impulse),
+            }
         });
         given.collect()
     }

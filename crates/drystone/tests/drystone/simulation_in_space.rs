@@ -256,6 +256,30 @@ fn random_scenes_keep_the_rules() {
     assert!(deep <= 5 && 100 * off <= 3 * total, "{off} off, {deep} deep of {total} steps");
 }
 
+/// With any restitution and friction no step gives energy.
+#[test]
+fn rebounds_give_no_energy() {
+    for seed in 0..16 {
+        let mut random = Pcg64::seed_from_u64(700 + seed);
+        let mut pick = |of: &[f64]| *of.choose(&mut random).unwrap();
+        let (friction, restitution) = (pick(&[0.0, 0.1, 0.5, 1.0]), pick(&[0.2, 0.6, 0.9, 1.0]));
+        let (scene, mut random) = thrown(seed, friction, 1 + seed as usize % 6);
+        let mut world = WorldInSpace::new(scene, Options { restitution, ..Options::default() }).unwrap();
+        let names: Vec<String> = world.scene().bodies().iter().skip(5).map(|body| body.name.clone()).collect();
+        for name in names {
+            world.set_velocity(&name, std::array::from_fn(|_| random.random_range(-3.0..3.0))).unwrap();
+        }
+        let mut energy = world.energy();
+        for step in 0..120 {
+            let context = || format!("seed {seed}, step {step}, friction {friction}, restitution {restitution}");
+            world.step().unwrap_or_else(|failure| panic!("{}: {failure}", context()));
+            let now = world.energy();
+            assert!(now <= energy + 1e-12 * energy.abs().max(1.0), "{}: {energy} to {now}", context());
+            energy = now;
+        }
+    }
+}
+
 /// The three modes make the same motion, and a snapshot goes on bit for bit.
 #[test]
 fn modes_agree_and_snapshots_go_on() {

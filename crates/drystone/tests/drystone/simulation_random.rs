@@ -2,7 +2,7 @@
 
 use drystone::{
     BodyOptions, Scene,
-    simulate::{Options, World},
+    simulate::{Formulation, Options, World},
 };
 use rand::{Rng, SeedableRng, seq::IndexedRandom};
 use rand_pcg::Pcg64;
@@ -63,4 +63,59 @@ fn random_scenes_keep_the_rules() {
     }
     assert!(jammed <= 5, "{jammed} of {steps} steps");
     assert!(100 * off <= 3 * steps, "{off} of {steps} steps");
+}
+
+/// With any restitution and friction, whatever the formulation, no step gives energy.
+#[test]
+fn rebounds_give_no_energy() {
+    let mut rebounds = 0;
+    for seed in 0..40 {
+        let mut random = Pcg64::seed_from_u64(500 + seed);
+        let mut pick = |of: &[f64]| *of.choose(&mut random).unwrap();
+        let (friction, restitution) = (pick(&[0.0, 0.1, 0.5, 1.0, 2.0]), pick(&[0.2, 0.6, 0.9, 1.0]));
+        let dt = pick(&[1.0 / 240.0, 1.0 / 60.0]);
+        let formulation = if seed % 4 == 3 { Formulation::Acceleration } else { Formulation::Velocity };
+        let mut scene = pit(friction);
+        let count = random.random_range(1..12);
+        (0..count).for_each(|k| throw(&mut random, &mut scene, k));
+        let options = Options { dt, restitution, formulation, ..Options::default() };
+        let mut world = World::new(scene, options).unwrap();
+        let names: Vec<String> = world.scene().bodies().iter().skip(3).map(|body| body.name.clone()).collect();
+        for name in names {
+            world.set_velocity(&name, std::array::from_fn(|_| random.random_range(-5.0..5.0))).unwrap();
+        }
+        let mut energy = world.energy();
+        for step in 0..120 {
+            let context = || format!("seed {seed}, step {step}, friction {friction}, restitution {restitution}");
+            world.step().unwrap_or_else(|failure| panic!("{}: {failure}", context()));
+            let now = world.energy();
+            assert!(now <= energy + 1e-12 * energy.abs().max(1.0), "{}: {energy} to {now}", context());
+            energy = now;
+            rebounds += usize::from(world.contact_impulses().iter().any(|contact| contact.along_normal > 0.0));
+        }
+    }
+    assert!(rebounds > 1000);
+}
+
+/// Impacts with full restitution take nothing: a block that falls again and again loses what the integrator takes of a free fall, (g h)^2 / 2
+/// in every step, and no more. (Where each step's gravity is added to a rebound it would go higher and higher.)
+#[test]
+fn an_elastic_block_loses_nothing_in_its_impacts() {
+    let mut scene = Scene::new([0.0, -10.0], 0.5).unwrap();
+    let fixed = BodyOptions { fixed: true, ..BodyOptions::default() };
+    scene.add_box([0.0, -0.5], [4.0, 1.0], 0.0, fixed).unwrap();
+    scene.add_box([0.0, 1.0], [1.0, 1.0], 0.0, BodyOptions::default()).unwrap();
+    let mut world = World::new(scene, Options { restitution: 1.0, ..Options::default() }).unwrap();
+    let (start, steps) = (world.energy(), 2400);
+    let taken = f64::from(steps) * 0.5 * (10.0_f64 / 240.0).powi(2);
+    let mut highest = 0.0_f64;
+    for step in 0..steps {
+        world.step().unwrap();
+        if step > 2000 {
+            highest = highest.max(world.poses().nth(1).unwrap()[1]);
+        }
+    }
+    let energy = world.energy();
+    assert!(energy <= start && energy >= start - 1.01 * taken, "{energy} of {start}, {taken}");
+    assert!(highest >= 0.99 * energy / 10.0, "{highest}");
 }

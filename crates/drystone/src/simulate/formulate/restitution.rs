@@ -14,25 +14,44 @@ pub fn resting_speed<S: Kinematics>(state: &State<S>) -> f64 {
     RESTING_STEPS * state.options.dt * norm(state.scene.gravity().as_ref())
 }
 
-/// How fast every contact may close, m/s: to the end of its gap, or with restitution, at an impact, minus how fast it has to part.
-/// `free` are the velocities without contacts.
-pub fn offsets<S: Kinematics>(state: &State<S>, contacts: &ContactProblem<S>, free: &[S::Velocity]) -> Vec<f64> {
-    let gap = |k: usize| contacts.candidates()[k].gap.max(0.0) / state.options.dt;
-    let offset = |k: usize| rebound(state, contacts, k, free).unwrap_or_else(|| gap(k));
-    (0..contacts.candidates().len()).map(offset).collect()
+/// How fast the contacts of a step may close, m/s.
+#[derive(Debug, Clone)]
+pub struct Offsets {
+    /// To the end of the gap.
+    closing: Vec<f64>,
+    /// Where bodies collide, how fast they come: below zero.
+    arriving: Vec<Option<f64>>,
 }
 
-/// The offset of a contact at which bodies collide and part again, m/s: `e u_n`. None where they do not.
-fn rebound<S: Kinematics>(
-    state: &State<S>,
-    contacts: &ContactProblem<S>,
-    contact: usize,
-    free: &[S::Velocity],
-) -> Option<f64> {
-    let (dt, restitution) = (state.options.dt, state.options.restitution);
-    let [arriving, _] = contacts.opening_and_sliding(contact, &state.velocities);
-    let [free, _] = contacts.opening_and_sliding(contact, free);
-    let gap = contacts.candidates()[contact].gap.max(0.0);
-    let collides = arriving < -resting_speed(state) && gap + dt * free <= 0.0;
-    (restitution > 0.0 && collides).then_some(restitution * arriving)
+impl Offsets {
+    /// `free` are the velocities without contacts. Without restitution nothing rebounds.
+    pub fn new<S: Kinematics>(state: &State<S>, contacts: &ContactProblem<S>, free: &[S::Velocity]) -> Self {
+        let resting = resting_speed(state);
+        let arriving = |k: usize| {
+            if state.options.restitution == 0.0 {
+                return None;
+            }
+            let [arriving, _] = contacts.opening_and_sliding(k, &state.velocities);
+            let [free, _] = contacts.opening_and_sliding(k, free);
+            let gap = contacts.candidates()[k].gap.max(0.0);
+            (arriving < -resting && gap + state.options.dt * free <= 0.0).then_some(arriving)
+        };
+        let closing = |k: usize| contacts.candidates()[k].gap.max(0.0) / state.options.dt;
+        let count = contacts.candidates().len();
+        Self { closing: (0..count).map(closing).collect(), arriving: (0..count).map(arriving).collect() }
+    }
+
+    /// Whether bodies collide and rebound.
+    pub fn rebound(&self) -> bool {
+        self.arriving.iter().any(Option::is_some)
+    }
+
+    /// The offsets: where bodies collide Newton's law of impact, `e u_n`.
+    pub fn with(&self, restitution: f64) -> Vec<f64> {
+        let offset = |(closing, arriving): (&f64, &Option<f64>)| match arriving {
+            Some(arriving) if restitution > 0.0 => restitution * arriving,
+            _ => *closing,
+        };
+        self.closing.iter().zip(&self.arriving).map(offset).collect()
+    }
 }

@@ -1,6 +1,7 @@
 //! The laws of motion that a step can be made by, behind one trait.
 
 mod acceleration;
+mod impact;
 mod law;
 mod velocity;
 

@@ -1,11 +1,11 @@
 //! Impulses and velocities at the end of the step, in one problem: docs/theory/velocity-level.md.
 
-use super::law::Law;
+use super::{impact::solve_with_rebounds, law::Law};
 use crate::simulate::{
     error::StepFailure,
-    formulate::{contact_problem::ContactProblem, restitution::offsets},
+    formulate::{contact_problem::ContactProblem, free_motion::energy_gained, restitution::Offsets},
     kinematics::Kinematics,
-    solve::{Motion, PreviousStep, StepProblem, solve},
+    solve::{Motion, PreviousStep},
     state::State,
 };
 
@@ -21,7 +21,7 @@ impl<S: Kinematics> Law<S> for VelocityLevel {
         contacts: &ContactProblem<S>,
         free: &[S::Velocity],
     ) -> Result<Motion<S>, StepFailure> {
-        let offsets = offsets(state, contacts, free);
-        solve(state, previous, &StepProblem { contacts, free, offsets: &offsets })
+        let offsets = Offsets::new(state, contacts, free);
+        solve_with_rebounds(state, previous, contacts, (free, &offsets), |ends| energy_gained(state, ends))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::{
     active_rows::ActiveRows,
+    step_problem::Motion,
     warm_start::{WarmStart, warm_start},
 };
 use crate::{
@@ -23,6 +24,8 @@ pub struct PreviousStep<S: Kinematics> {
     pub sliding: Vec<f64>,
     /// Impulse at each of its contacts, in world axes, N s.
     pub impulses: Vec<S::Vector>,
+    /// Steps that the last one was made in; the impulses are of the last of them.
+    pub substeps: usize,
     /// On the acceleration level with full reuse: where solves of islands with sliding contacts start.
     pub active_rows: ActiveRows,
     /// The solution, where no solver was made for it.
@@ -46,6 +49,7 @@ impl<S: Kinematics> PreviousStep<S> {
             problem: None,
             sliding: Vec::new(),
             impulses: Vec::new(),
+            substeps: 1,
             active_rows: ActiveRows::default(),
             at_rest: None,
             solver: warm_start(reuse),
@@ -60,6 +64,13 @@ impl<S: Kinematics> PreviousStep<S> {
         self.impulses.clear();
         self.active_rows = ActiveRows::default();
         self.at_rest = None;
+    }
+
+    /// Takes a solve of this step for the step before: the next one solves the same step again.
+    pub fn take(&mut self, contacts: &ContactProblem<S>, motion: &Motion<S>) {
+        self.problem = Some(contacts.clone());
+        self.sliding.clone_from(&motion.sliding);
+        self.impulses.clone_from(&motion.impulses);
     }
 
     /// The rows of some contacts.

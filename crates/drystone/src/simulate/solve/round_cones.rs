@@ -78,10 +78,11 @@ pub fn solve_on_round_cones<S: Kinematics>(
         (0..candidates.len()).map(|k| contact::<S>(&candidates[k], step.offsets[k], &frames[k], &place)).collect();
     let start = previous.problem.as_ref().map(|before| start(previous, step.contacts, before, &frames));
     let scale = norm(state.scene.gravity().as_ref()) * state.options.dt;
-    let settings = Settings { scale, newton_steps: NEWTON_STEPS, ..Settings::default() };
+    let relative_tolerance = state.options.coulomb_tolerance;
+    let settings = Settings { scale, relative_tolerance, newton_steps: NEWTON_STEPS, ..Settings::default() };
     let solution = bodies.solve(start.as_deref(), &settings).ok()?;
-    let speed = solution.tolerance / drystone_contact::RELATIVE_TOLERANCE;
-    if solution.error.is_nan() || solution.error > COARSE * speed {
+    let speed = solution.tolerance / relative_tolerance;
+    if solution.error.is_nan() || solution.error > COARSE.max(relative_tolerance) * speed {
         return None;
     }
     // What pivots had taken over is of another step from now on.

@@ -1,8 +1,14 @@
 //! The contact problem of one step, and its answer.
 
 use crate::{
-    geometry::Polygon,
-    simulate::{formulate::contact_problem::ContactProblem, kinematics::Kinematics, record::Inconsistent},
+    contact::candidates::CandidateOf,
+    geometry::{Polygon, norm},
+    simulate::{
+        formulate::contact_problem::{ContactProblem, relative_velocity},
+        kinematics::Kinematics,
+        record::Inconsistent,
+        state::State,
+    },
 };
 use drystone_lcp::Counts;
 use std::time::Duration;
@@ -38,6 +44,14 @@ pub struct Motion<S: Kinematics = Polygon> {
 }
 
 impl<S: Kinematics> StepProblem<'_, S> {
+    /// The largest error of Coulomb's law that counts as exact, m/s: the tolerance times the largest speed of a contact without
+    /// impulses, or what gravity gives in a step.
+    pub fn coulomb_tolerance(&self, state: &State<S>) -> f64 {
+        let speed = |candidate: &CandidateOf<S>| norm(relative_velocity::<S>(candidate, self.free).as_ref());
+        let fastest = self.contacts.candidates().iter().map(speed).fold(0.0, f64::max);
+        state.options.coulomb_tolerance * fastest.max(norm(state.scene.gravity().as_ref()) * state.options.dt)
+    }
+
     /// The sliding speeds found, and the largest error of Coulomb's law: where a contact bears, the speed at which it parts;
     /// where it does not, the speed at which it closes beyond its gap. `assumed` are the sliding speeds that the cones' edges were
     /// corrected for, `p` the impulses of the rows.
@@ -64,6 +78,11 @@ impl<S: Kinematics> StepProblem<'_, S> {
 }
 
 impl<S: Kinematics> Motion<S> {
+    /// Counts the work of a solve of the same step that was not better.
+    pub fn count(&mut self, other: &Self) {
+        (self.solves, self.counts, self.time) = (other.solves, other.counts, other.time);
+    }
+
     /// Counts the work of an earlier solve of the same step.
     pub fn add_earlier(&mut self, earlier: &Self) {
         self.solves += earlier.solves;

@@ -7,10 +7,12 @@ use crate::{
         error::StepFailure,
         formulate::{
             contact_problem::{ContactProblem, Velocity, normal_and_tangential},
-            restitution::{offsets, resting_speed},
+            free_motion::kinetic_energy_gained,
+            restitution::{Offsets, resting_speed},
         },
+        laws::impact::solve_with_rebounds,
         options::Reuse,
-        solve::{Motion, PreviousStep, StepProblem, solve},
+        solve::{Motion, PreviousStep},
         state::State,
     },
 };
@@ -56,10 +58,11 @@ pub fn collide(
     let mut from_nothing = PreviousStep::none(Reuse::None);
     let candidates = members.iter().map(|&k| contacts.candidates()[k]).collect();
     let part = ContactProblem::after(Some(contacts), candidates, state.options.cones, state.scene.gravity());
-    let offsets = offsets(state, &part, free);
+    let offsets = Offsets::new(state, &part, free);
 
-    let step = StepProblem { contacts: &part, free: &collided.velocities, offsets: &offsets };
-    let mut motion = solve(state, &mut from_nothing, &step)?;
+    let started = (&collided.velocities[..], &offsets);
+    let gained = |ends: &[Velocity]| kinetic_energy_gained(state, ends);
+    let mut motion = solve_with_rebounds(state, &mut from_nothing, &part, started, gained)?;
     motion.counts = from_nothing.solver.counts();
     collided.velocities.clone_from(&motion.velocities);
     members.iter().zip(&motion.impulses).for_each(|(&k, impulse)| collided.impulses[k] = *impulse);

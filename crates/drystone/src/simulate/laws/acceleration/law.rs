@@ -92,7 +92,8 @@ impl Law<Polygon> for AccelerationLevel {
         motion.friction_error =
             law_error::largest(contacts, &motion.velocities, &motion.impulses, &offsets, &state.inverse_mass);
         let speed = free.iter().fold(0.0_f64, |fastest, v| shift::<Polygon>(v).max(fastest));
-        motion.exact = motion.friction_error <= FRICTION_ACCEPTED * speed.max(1.0);
+        let tolerance = StepProblem { contacts, free: &free, offsets: &offsets }.coulomb_tolerance(state);
+        motion.exact = motion.friction_error <= tolerance.max(FRICTION_ACCEPTED * speed.max(1.0));
         motion.inconsistent = inconsistent;
         motion.time += time;
         collided.add_to(&mut motion);
