@@ -54,3 +54,11 @@ pub(super) fn dead_end(
     }
     Ok(falls)
 }
+
+/// Nothing of what was stopped: the answer stays, but what would be said about it.
+pub(super) fn until_stopped<T: Default>(done: Result<T, PlanError>) -> Result<T, PlanError> {
+    match done {
+        Err(PlanError::Interrupted) => Ok(T::default()),
+        done => done,
+    }
+}

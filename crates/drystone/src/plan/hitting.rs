@@ -8,12 +8,14 @@
 use crate::formulate::BlockSet;
 
 /// The first minimal hitting set of at most `most` blocks that is not among `known`, ascending; blocks that come first in
-/// `preference` are chosen first. None if there is no other.
+/// `preference` are chosen first. None if there is no other. What `may` does not allow is left out, with all that has more
+/// blocks.
 pub(super) fn next_hitting_set(
     family: &[BlockSet],
     most: usize,
     preference: &[usize],
     known: &[Vec<usize>],
+    may: &impl Fn(&[usize]) -> bool,
 ) -> Option<Vec<usize>> {
     fn extend(
         chosen: &mut Vec<usize>,
@@ -21,7 +23,11 @@ pub(super) fn next_hitting_set(
         most: usize,
         preference: &[usize],
         known: &[Vec<usize>],
+        may: &impl Fn(&[usize]) -> bool,
     ) -> Option<Vec<usize>> {
+        if !may(chosen) {
+            return None;
+        }
         let Some(missed) = family.iter().find(|set| !chosen.iter().any(|&block| set.contains(block))) else {
             let mut sorted = chosen.clone();
             sorted.sort_unstable();
@@ -32,7 +38,7 @@ pub(super) fn next_hitting_set(
         }
         for &block in preference.iter().filter(|&&block| missed.contains(block)) {
             chosen.push(block);
-            let found = extend(chosen, family, most, preference, known);
+            let found = extend(chosen, family, most, preference, known, may);
             chosen.pop();
             if found.is_some() {
                 return found;
@@ -40,7 +46,7 @@ pub(super) fn next_hitting_set(
         }
         None
     }
-    extend(&mut Vec::new(), family, most, preference, known)
+    extend(&mut Vec::new(), family, most, preference, known, may)
 }
 
 /// Whether every block alone meets some set.
@@ -66,8 +72,12 @@ mod tests {
     }
 
     fn all(family: &[BlockSet], most: usize) -> Vec<Vec<usize>> {
+        all_that(family, most, |_| true)
+    }
+
+    fn all_that(family: &[BlockSet], most: usize, may: impl Fn(&[usize]) -> bool) -> Vec<Vec<usize>> {
         let mut known = Vec::new();
-        while let Some(set) = next_hitting_set(family, most, &[7, 6, 5, 4, 3, 2, 1, 0], &known) {
+        while let Some(set) = next_hitting_set(family, most, &[7, 6, 5, 4, 3, 2, 1, 0], &known, &may) {
             known.push(set);
         }
         known
@@ -89,6 +99,19 @@ mod tests {
             expected.sort();
             assert_eq!(found, expected, "of at most {most}");
         }
+    }
+
+    #[test]
+    fn what_is_not_allowed_is_left_out_and_nothing_else() {
+        let family = sets(&[&[0, 1, 2], &[2, 3], &[1, 3, 4], &[0, 4, 5]]);
+        let may = |chosen: &[usize]| chosen.iter().filter(|&&block| block > 2).count() <= 1;
+        let mut expected = all(&family, 3);
+        expected.retain(|set| may(set));
+        let mut found = all_that(&family, 3, may);
+        expected.sort();
+        found.sort();
+        assert!(!found.is_empty() && found.len() < all(&family, 3).len());
+        assert_eq!(found, expected);
     }
 
     #[test]

@@ -1,9 +1,12 @@
 //! A stability test that may hold blocks.
 //!
 //! A sub-assembly passes if it stands with at most `hands` of its blocks held, and if that hold can follow the one before.
-//! Which holds are worth a look follows from the collapses (`hitting.rs`): all *minimal* ones are found, for whatever holds
-//! more stands as well. If none does, the collapses found on the way prove it, and carry over as a nogood: by Lemma 1 each
-//! holds for other sub-assemblies, and no hold of so many hands stops all of them.
+//! Which holds are worth a look follows from the collapses (`hitting.rs`): the *minimal* ones that can be had from where the
+//! hands are, for whatever holds more stands as well. If none does, the others are tried: the collapses found on the way
+//! prove that none stops all of them, and carry over as a nogood, for by Lemma 1 each holds for other sub-assemblies.
+//!
+//! A first search keeps only the first few holds of a sub-assembly, which is quicker by far; what it passes over for
+//! that is left to a second one that keeps them all ([`Holding::left_out`]).
 //!
 //! *How hands move.* One more hand carries the block that is put up or taken away, and may go on holding it. Apart from it
 //! at most `hands` blocks are held at any moment, and a new block is held before an old one is let go. So H' can follow H
@@ -18,6 +21,10 @@ use drystone_lcp::cone::{ConeSolver, Mark};
 
 /// Most holds tried on one sub-assembly. One hand never comes near; with more the number of sets could explode.
 const MOST_TRIED: usize = 2000;
+
+/// Holds of one sub-assembly that a first search keeps: with two hands there may be hundreds, each a test of its own, and
+/// those that hold what came last are the first and serve longest.
+pub(super) const FEW: usize = 4;
 
 /// A sub-assembly on the way.
 #[derive(Debug)]
@@ -38,6 +45,10 @@ pub(super) struct Holding<'a> {
     rows: BlockRows,
     loads: Vec<f64>,
     hands: usize,
+    /// Most holds of a sub-assembly that are kept.
+    most: usize,
+    /// Sub-assemblies of which more holds may have been had than were kept.
+    left_out: usize,
     /// The bare supports, the current sub-assembly's ancestors, and itself.
     path: Vec<Level>,
     at_current: bool,
@@ -51,8 +62,9 @@ pub(super) struct Holding<'a> {
 }
 
 impl<'a> Holding<'a> {
-    /// Takes the generators of the complete assembly; the current sub-assembly is empty.
-    pub fn new(assembly: &'a Assembly, hands: usize) -> Self {
+    /// Takes the generators of the complete assembly; the current sub-assembly is empty. Of each sub-assembly at most `most` holds
+    /// are kept.
+    pub fn new(assembly: &'a Assembly, hands: usize, most: usize) -> Self {
         let mut solver = assembly.equilibrium_with_hands();
         let bare = Level { unheld: solver.mark(), added: 0, holds: vec![Vec::new()] };
         Self {
@@ -61,6 +73,8 @@ impl<'a> Holding<'a> {
             rows: assembly.equilibrium_rows(),
             loads: (0..assembly.blocks()).flat_map(|block| assembly.applied(block)).copied().collect(),
             hands,
+            most,
+            left_out: 0,
             path: vec![bare],
             at_current: true,
             added: 0,
@@ -75,6 +89,11 @@ impl<'a> Holding<'a> {
     /// be had on the way, or there were too many to try.
     pub fn undecided(&self) -> usize {
         self.undecided
+    }
+
+    /// Sub-assemblies of which there may have been more holds than were kept: what was given up on them is no proof.
+    pub fn left_out(&self) -> usize {
+        self.left_out
     }
 
     /// Of every sub-assembly on the way the block put up last and the minimal holds.
@@ -100,34 +119,59 @@ impl<'a> Holding<'a> {
         Ok((!outcome.borderline).then_some(outcome.stands))
     }
 
-    /// Finds the minimal holds of a sub-assembly that falls with nothing held.
+    /// Finds the minimal holds of a sub-assembly that falls with nothing held, as far as they can be had here. If there are none,
+    /// the collapses are a proof that none stands, or empty.
     fn find_holds(&mut self, blocks: &BlockSet) -> Result<(), PlanError> {
-        let unheld = self.solver.mark();
-        let preference: Vec<usize> = self.newest_first().collect();
         let fell = self.fell.take();
         let fell = fell.unwrap_or_else(|| certified_collapse(&self.solver, &self.rows, &self.loads));
         self.collapses.push(fell);
         let mut family = vec![self.moving(&[])];
         let mut tried = 0;
-        while let Some(held) = next_hitting_set(&family, self.hands, &preference, &self.holds) {
-            let stands = if tried == MOST_TRIED { None } else { self.stands(&held, blocks)? };
-            tried += 1;
+        if !self.try_holds(blocks, &mut family, &mut tried, true)? {
+            self.collapses.clear();
+        } else if self.holds.is_empty() && !self.try_holds(blocks, &mut family, &mut tried, false)? {
+            self.holds.clear();
+            self.collapses.clear();
+        }
+        Ok(())
+    }
+
+    /// Tries one hold after the other that stops the collapses of the family, those that can be had here or any. False if
+    /// the collapses do not tell which holds there are: one is borderline, there are too many to try, or there is one that cannot
+    /// be had here.
+    fn try_holds(
+        &mut self,
+        blocks: &BlockSet,
+        family: &mut Vec<BlockSet>,
+        tried: &mut usize,
+        here: bool,
+    ) -> Result<bool, PlanError> {
+        let unheld = self.solver.mark();
+        let preference: Vec<usize> = self.newest_first().collect();
+        loop {
+            let may = |held: &[usize]| !here || self.can_follow(held);
+            let Some(held) = next_hitting_set(family, self.hands, &preference, &self.holds, &may) else {
+                return Ok(true);
+            };
+            let stands = if *tried == MOST_TRIED { None } else { self.stands(&held, blocks)? };
+            *tried += 1;
             match stands {
                 Some(true) => self.holds.push(held),
                 Some(false) => {
                     self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
                     family.push(self.moving(&held));
                 }
-                // They prove nothing: there are too many holds to try, or one is borderline.
-                None => {
-                    self.collapses.clear();
-                    self.solver.roll_back(unheld);
-                    break;
-                }
+                None => {}
             }
             self.solver.roll_back(unheld);
+            if stands.is_none() || stands == Some(true) && !here {
+                return Ok(false);
+            }
+            if self.holds.len() == self.most {
+                self.left_out += 1;
+                return Ok(true);
+            }
         }
-        Ok(())
     }
 
     /// The blocks put up, the one being tried first.
@@ -174,12 +218,9 @@ impl StabilityTest for Holding<'_> {
             self.holds.push(Vec::new());
         } else if unheld == Some(false) {
             self.find_holds(blocks)?;
-            let mut holds = std::mem::take(&mut self.holds);
-            if !holds.is_empty() {
+            if !self.holds.is_empty() {
                 self.collapses.clear();
             }
-            holds.retain(|held| self.can_follow(held));
-            self.holds = holds;
         }
         let stands = !self.holds.is_empty();
         self.undecided += usize::from(!stands && self.collapses.is_empty());

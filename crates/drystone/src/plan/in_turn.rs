@@ -105,7 +105,7 @@ impl<'a> InTurn<'a> {
 }
 
 /// Lets a search make so many more tests. None if it wants to go on.
-fn take_turn(
+pub(super) fn take_turn(
     search: &mut Search<'_>,
     test: &mut dyn StabilityTest,
     clock: &mut Clock<'_>,

@@ -38,6 +38,7 @@ mod touching;
 mod under_each;
 mod visited;
 mod whole;
+mod with_hands;
 
 pub use ahead::Ahead;
 pub use clear_path::Blocked;

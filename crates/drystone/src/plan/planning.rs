@@ -1,24 +1,21 @@
 //! From a scene to a plan: the check of the complete assembly, and the search.
 
 use super::ahead::Ahead;
-use super::candidates::Upward;
 use super::clear_path::{Blocked, Paths};
-use super::dead_end::{dead_end, put_up};
-use super::grips::fewest_grips;
-use super::holding::Holding;
-use super::in_turn::{InTurn, first_turn, memory_for};
+use super::dead_end::{dead_end, until_stopped};
+use super::in_turn::{InTurn, first_turn};
 use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, TestRecord};
 use super::reuse::Reuse;
-use super::search::{Clock, Search};
+use super::search::Clock;
 use super::stability::{FromScratch, PlanError, ReuseDantzig, StabilityTest, Test};
 use super::touching::Touching;
 use super::under_each::UnderEach;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
+use super::with_hands::search_with_hands;
 use crate::{
     check::{Verdict, check_blocks},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockSet},
-    interrupt::Interrupt,
     limit::accelerated,
     scene::SceneOf,
 };
@@ -240,13 +237,13 @@ fn search_ways_out(
 }
 
 /// What a search has found, blocks by their numbers among the movable ones.
-struct Found {
-    outcome: Outcome,
-    reached: Vec<usize>,
-    held: Vec<Vec<usize>>,
-    falls_next: Vec<usize>,
-    records: Vec<TestRecord>,
-    shortcuts: usize,
+pub(super) struct Found {
+    pub outcome: Outcome,
+    pub reached: Vec<usize>,
+    pub held: Vec<Vec<usize>>,
+    pub falls_next: Vec<usize>,
+    pub records: Vec<TestRecord>,
+    pub shortcuts: usize,
     whole: Option<Verdict>,
     whole_time: Duration,
 }
@@ -384,70 +381,4 @@ fn search_unheld(
     };
     let held = vec![Vec::new(); reached.len()];
     Ok(Found { outcome, reached, held, falls_next, records, shortcuts, whole, whole_time })
-}
-
-/// Nothing of what was stopped: the answer stays, but what would be said about it.
-fn until_stopped<T: Default>(done: Result<T, PlanError>) -> Result<T, PlanError> {
-    match done {
-        Err(PlanError::Interrupted) => Ok(T::default()),
-        done => done,
-    }
-}
-
-/// Time for putting up once more what was found when a search is stopped: less than what anybody waits for after Ctrl-C.
-const LATE: Duration = Duration::from_millis(200);
-
-/// The search with blocks held, after one that found that there is no order without.
-fn search_with_hands(
-    assembly: &Assembly,
-    touching: &Touching,
-    paths: Option<&Paths<'_>>,
-    hands: usize,
-    clock: &mut Clock<'_>,
-    found: &mut Found,
-) -> Result<(), PlanError> {
-    let Ok(mut test) = clock.run(|| Ok(Holding::new(assembly, hands))) else {
-        found.outcome = clock.stopped();
-        return Ok(());
-    };
-    let mut memory = memory_for(touching, clock.limits, &test);
-    let mut upward = Upward::new(touching);
-    let mut search = Search::new(touching, paths, memory.as_mut(), &mut upward);
-    search.records = std::mem::take(&mut found.records);
-    let ended = search.run(&mut test, clock);
-    let Search { best: reached, records, .. } = search;
-    (found.reached, found.records) = (reached, records);
-    found.shortcuts += memory.shortcuts();
-    found.outcome = match ended {
-        Err(PlanError::Interrupted) => clock.stopped(),
-        Ok(Outcome::NoOrder) if test.undecided() > 0 => Outcome::Undecided,
-        ended => ended?,
-    };
-    found.falls_next = match found.outcome {
-        Outcome::Found => Vec::new(),
-        Outcome::NoOrder | Outcome::Undecided => {
-            test = Holding::new(assembly, hands);
-            until_stopped(clock.run(|| dead_end(&mut test, touching, paths, &mut found.reached)))?
-        }
-        outcome => {
-            let mut again = None;
-            let put_up = || put_up(again.insert(Holding::new(assembly, hands)), touching, &found.reached);
-            match outcome {
-                Outcome::TestLimit => clock.run(put_up).map(drop),
-                // Who stopped the search would stop this too.
-                _ => Interrupt::at(Instant::now() + LATE).instead(put_up).transpose().map(drop),
-            }
-            .or_else(|error| until_stopped(Err(error)))?;
-            found.reached.truncate(again.as_ref().map_or(0, |test| test.way().count()));
-            match again {
-                Some(put_up) => test = put_up,
-                None => return Ok(()),
-            }
-            Vec::new()
-        }
-    };
-    found.held = fewest_grips(test.way(), hands);
-    // The complete assembly stands with nothing held, and was not put up.
-    found.held.resize(found.reached.len(), Vec::new());
-    Ok(())
 }
