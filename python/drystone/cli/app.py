@@ -315,9 +315,12 @@ def import_(
         typer.Option("-o", "--output", help="The scene file to write; - for standard output."),
     ] = None,
     scale: Annotated[
-        float,
-        typer.Option(help="How many metres the file's unit of length has: 0.001 for millimetres."),
-    ] = 1.0,
+        float | None,
+        typer.Option(
+            help="How many metres the file's unit of length has: 0.001 for millimetres. "
+            "By default what the file says, or 1."
+        ),
+    ] = None,
     up: Annotated[Up, typer.Option(help="The axis that points up in the file.")] = "z",
     friction: Annotated[
         float, typer.Option(help="Coefficient of friction of bodies without their own.")

@@ -14,11 +14,22 @@ from drystone._core import DrystoneError
 
 EXTRAS = {
     "pictures": ("matplotlib",),
-    "meshes": ("trimesh", "manifold3d", "scipy"),
+    "meshes": ("trimesh", "manifold3d", "scipy", "lxml", "networkx"),
+    "cad": ("trimesh", "scipy", "cascadio"),
     "lp": ("highspy",),
     "sparse": ("scipy",),
     "ray": ("ray",),
-    "all": ("matplotlib", "trimesh", "manifold3d", "scipy", "highspy", "ray"),
+    "all": (
+        "matplotlib",
+        "trimesh",
+        "manifold3d",
+        "scipy",
+        "lxml",
+        "networkx",
+        "cascadio",
+        "highspy",
+        "ray",
+    ),
 }
 """The packages of each extra."""
 

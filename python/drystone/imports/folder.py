@@ -82,14 +82,9 @@ def _add_listed(
         )
     if not isinstance(fields.get("fixed", False), bool):
         raise FormatError(f"{what}: fixed must be true or false")
-    scale = finite(fields.get("scale", 1.0), f"{what}: scale")
-    read = read_part(
-        path.parent / file,
-        name=name,
-        scale=scale,
-        tolerance=collected.mesh_tolerance,
-        **options,
-    )
+    if "scale" in fields:
+        options = {**options, "scale": finite(fields["scale"], f"{what}: scale")}
+    read = read_part(path.parent / file, name=name, tolerance=collected.mesh_tolerance, **options)
     position = numbers(fields.get("position", [0, 0, 0]), 3, f"{what}: position")
     turned = numbers(fields.get("orientation", [1, 0, 0, 0]), 4, f"{what}: orientation")
     if not any(turned):

@@ -92,7 +92,7 @@ class Imported:
 def load(
     path: str | PathLike[str] | object,
     *,
-    scale: float = 1.0,
+    scale: float | None = None,
     up: Up = "z",
     friction: float | Mapping[str, float] = FRICTION,
     density: float | Mapping[str, float] | None = None,
@@ -115,8 +115,8 @@ def load(
 
     What the file does not say, or what you want otherwise:
 
-    - `scale` makes metres of the file's lengths; `up` is the axis ("y" or "z") that points up in
-      it.
+    - `scale` makes metres of the file's lengths; by default it is the unit that a 3MF or STEP file
+      states, else 1. `up` is the axis ("y" or "z") that points up in it.
     - `friction` is the coefficient of bodies without their own. `density` (kg/m^3) is that of all
       bodies, whatever the file says (1000 if neither says anything). Either may be a dict by names
       of bodies, for these alone. `gravity` is in m/s^2, with z up.
@@ -145,6 +145,8 @@ def load(
     source: Any = path if live else Path(fspath(cast("str | PathLike[str]", path)))
     if up not in UP:
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
+    own_units = scale is None
+    scale = 1.0 if scale is None else scale
     if not 0 < scale < float("inf"):
         raise FormatError(f"scale must be a positive number, not {scale!r}")
     if joints not in JOINTS:
@@ -156,7 +158,7 @@ def load(
     collected = Collected(mesh_tolerance=None if given is None else given / 2 / scale)
     try:
         simplify = None if simplify is None else simplify / scale
-        taking = Taking(max_pieces, simplify, hull, joints, density is None, surface)
+        taking = Taking(max_pieces, simplify, hull, joints, density is None, surface, own_units)
         if live:
             kind = _read_data(compas_data.data_of(source), source, collected, taking)
         else:
@@ -213,6 +215,12 @@ class Taking:
     joints: str
     massless_are_fixed: bool
     surface: bool | None
+    own_units: bool
+    """Whether lengths of mesh files are in the units that these state."""
+
+    def for_files(self) -> dict[str, Any]:
+        """The arguments of those who read files of meshes, which may state a unit."""
+        return {**self.for_meshes(), "scale": None if self.own_units else 1.0}
 
     def for_meshes(self) -> dict[str, Any]:
         """The arguments of those who read meshes."""
@@ -229,11 +237,11 @@ def _read(path: Path, collected: Collected, taking: Taking, split: str | None) -
     path.stat()
     ending = path.suffix.lower()
     if ending in ENDINGS and not path.is_dir():
-        return mesh.read(path, collected, split=split, **taking.for_meshes())
+        return mesh.read(path, collected, split=split, **taking.for_files())
     if split is not None:
         raise FormatError(f"{path}: split is for one mesh file")
     if path.is_dir():
-        folder.read(path, collected, **taking.for_meshes())
+        folder.read(path, collected, **taking.for_files())
         return "folder of parts"
     if ending == ".json":
         return _read_json(path, collected, taking)
@@ -251,7 +259,7 @@ def _read_data(data: Any, path: Any, collected: Collected, taking: Taking) -> st
     if is_assembly(data):
         return compas.read(data, collected, **taking.for_meshes())
     if isinstance(data, dict) and "parts" in data:
-        folder.read_manifest(Path(path), collected, **taking.for_meshes())
+        folder.read_manifest(Path(path), collected, **taking.for_files())
         return "manifest"
     if isinstance(data, dict) and "bodies" in data:
         raise FormatError(f"{path}: a scene of drystone already: use it as it is")

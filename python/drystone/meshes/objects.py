@@ -1,4 +1,4 @@
-"""The bodies in one mesh file: by objects or groups of OBJ, nodes of glTF, solids of STL."""
+"""The bodies in one mesh file: objects or groups of OBJ, nodes of glTF, parts of 3MF and STEP."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from drystone.meshes.reading import (
     of_sections,
     of_trimesh,
     read_triangles,
+    unit_of,
 )
 
 SPLITS = ("objects", "groups", "none")
@@ -38,7 +39,8 @@ class Split:
 
 
 def read_split(source: str | PathLike[str], split: str | None) -> Split:
-    """The triangles of a file by its objects (`o` of OBJ, nodes of glTF, solids of STL) or groups.
+    """The triangles of a file by its objects (`o` of OBJ, nodes of glTF, parts of 3MF and STEP,
+    solids of STL) or groups.
 
     `split` is one of `SPLITS`. None takes objects, or groups if there are no objects, unless these
     only are parts of one closed surface.
@@ -97,8 +99,9 @@ def _nodes(path: Path) -> list[Triangles]:
     """The meshes of a file where its nodes put them, by name."""
     repeats = path.suffix.lower() in REPEATING
     loaded = load(path, whole=False)
+    unit = unit_of(path, loaded)
     if not hasattr(loaded, "graph"):
-        return [of_trimesh(loaded, path.stem, repeats)]
+        return [replace(of_trimesh(loaded, path.stem, repeats), unit=unit)]
     parts = []
     for node in sorted(loaded.graph.nodes_geometry, key=in_order):
         matrix, geometry = loaded.graph[node]
@@ -107,7 +110,7 @@ def _nodes(path: Path) -> list[Triangles]:
             continue
         mesh = mesh.copy()
         mesh.apply_transform(matrix)
-        parts.append(of_trimesh(mesh, str(node), repeats))
+        parts.append(replace(of_trimesh(mesh, str(node), repeats), unit=unit))
     if not parts:
         raise MeshError(NO_FACES)
     return parts if len(parts) > 1 else [replace(parts[0], name=path.stem)]

@@ -86,7 +86,7 @@ BEYOND_USE = (ArithmeticError, LookupError, MemoryError, ValueError)
 def read_part(
     source: str | PathLike[str] | Trimesh,
     *,
-    scale: float | tuple[float, float, float] = 1.0,
+    scale: float | tuple[float, float, float] | None = None,
     name: str | None = None,
     hull: bool = False,
     max_pieces: int | None = None,
@@ -94,13 +94,14 @@ def read_part(
     tolerance: float | None = None,
     surface: bool | None = None,
 ) -> Part:
-    """The convex pieces of a mesh file (OBJ, STL, PLY, OFF, glTF, GLB) or of a trimesh.Trimesh.
+    """The convex pieces of a file (OBJ, STL, PLY, OFF, glTF, 3MF, STEP) or of a trimesh.Trimesh.
 
     A mesh that is curved, or would fall into many pieces, is kept as a surface instead, and the
     part's messages say so. `surface=True` keeps any mesh as a surface. With `surface=False`, or
     with `max_pieces`, there are convex pieces or an error.
 
-    - `scale` makes metres of the file's lengths.
+    - `scale` makes metres of the file's lengths. By default it is the unit that a 3MF or STEP file
+      states, else 1.
     - `hull=True` takes the convex hull instead, as most simulators do.
     - `simplify` (metres) is for scans of many triangles: the surface may move by that much, so that
       few pieces remain. The part's `simplification` says how far it moved and how its volume
@@ -131,6 +132,7 @@ def read_parts(
     simplify: float | None = None,
     tolerance: float | None = None,
     surface: bool | None = None,
+    scale: float | None = None,
 ) -> tuple[list[Part], Split]:
     """A part for each object or group of a mesh file, as `read_part`, and how it was split.
 
@@ -144,6 +146,7 @@ def read_parts(
             "simplify": simplify,
             "tolerance": tolerance,
             "surface": surface,
+            "scale": scale,
         }
         return [_named(read, found, options) for read in found.parts], found
     except MeshError as error:
@@ -171,7 +174,7 @@ def _named(read: Triangles, found: Split, options: dict[str, Any]) -> Part:
 
 def part_from(
     read: Triangles,
-    scale: float | tuple[float, float, float] = 1.0,
+    scale: float | tuple[float, float, float] | None = None,
     name: str | None = None,
     hull: bool = False,
     max_pieces: int | None = None,
@@ -180,15 +183,26 @@ def part_from(
     surface: bool | None = None,
 ) -> Part:
     """The convex pieces of what a file holds; the rest is as for `read_part`."""
+    said = None
+    if scale is None:
+        scale = 1.0 if read.unit is None else read.unit
+        if scale != 1.0:
+            said = f"its file says that a unit of length is {scale:g} m"
     factors = _factors(scale)
     name, vertices, triangles = name or read.name, read.vertices * factors, read.triangles
     if hull:
-        return _hull(name, vertices[np.unique(triangles)], simplify)
-    if np.prod(factors) < 0:
-        triangles = triangles[:, ::-1]
-    # Numbers are as exact as they were before they were scaled.
-    exact = assumed(read.vertices, float(abs(factors).max()), tolerance)
-    return part_of(name, vertices, triangles, read.repeats, max_pieces, simplify, exact, surface)
+        part = _hull(name, vertices[np.unique(triangles)], simplify)
+    else:
+        if np.prod(factors) < 0:
+            triangles = triangles[:, ::-1]
+        # Numbers are as exact as they were before they were scaled.
+        exact = assumed(read.vertices, float(abs(factors).max()), tolerance)
+        part = part_of(
+            name, vertices, triangles, read.repeats, max_pieces, simplify, exact, surface
+        )
+    if said is not None:
+        part.messages.append(said)
+    return part
 
 
 def part_of(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,11 +17,31 @@ from drystone.meshes.obj import Obj, Section, read_obj
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-ENDINGS = (".obj", ".stl", ".ply", ".off", ".gltf", ".glb", ".msh")
+STEP = (".step", ".stp")
+"""Files of exact solids, which are read as triangles near them."""
+
+ENDINGS = (".obj", ".stl", ".ply", ".off", ".gltf", ".glb", ".3mf", ".msh", *STEP)
 """Mesh files that are read."""
 
-REPEATING = (".stl", ".glb", ".gltf", ".msh")
+REPEATING = (".stl", ".glb", ".gltf", ".msh", *STEP)
 """Formats that repeat a vertex for each face or normal: merging them is no repair."""
+
+METRES = {
+    "micron": 1e-6,
+    "millimeter": 1e-3,
+    "centimeter": 1e-2,
+    "inch": 0.0254,
+    "foot": 0.3048,
+    "meter": 1.0,
+}
+"""Units that a 3MF file may name."""
+
+CHORDS = 0.1
+"""Radians between normals of neighbouring triangles that stand for a curved face of a STEP file: a
+circle has 64 sides, which are off by 1.2e-3 of its radius."""
+
+SAG = 1e-3
+"""Metres that these triangles may be off, at most, whatever the angles."""
 
 NO_FACES = "it holds no faces: export it as a closed surface of triangles"
 
@@ -35,6 +55,8 @@ class Triangles:
     triangles: NDArray[np.int64]
     repeats: bool
     """Whether it is usual for its format to repeat vertices."""
+    unit: float | None = None
+    """Metres in one of its lengths, if its file says so."""
 
 
 def read_triangles(source: str | PathLike[str] | Any) -> Triangles:
@@ -48,7 +70,9 @@ def read_triangles(source: str | PathLike[str] | Any) -> Triangles:
     if path.suffix.lower() == ".obj":
         obj = read_obj(path)
         return of_sections(path.stem, obj, obj.objects)
-    return of_trimesh(load(path), path.stem, path.suffix.lower() in REPEATING)
+    mesh = load(path)
+    read = of_trimesh(mesh, path.stem, path.suffix.lower() in REPEATING)
+    return replace(read, unit=unit_of(path, mesh))
 
 
 def checked(source: str | PathLike[str]) -> Path:
@@ -74,16 +98,47 @@ def of_sections(name: str, obj: Obj, sections: list[Section]) -> Triangles:
     return Triangles(name, obj.vertices[used], places.reshape(-1, 3), repeats=False)
 
 
+def unit_of(path: Path, loaded: Any) -> float | None:
+    """Metres in one of a file's lengths, where its format has a unit; None where it has none."""
+    ending = path.suffix.lower()
+    if ending in STEP:
+        return 1.0  # into which they were converted
+    if ending != ".3mf":
+        return None
+    name = str(getattr(loaded, "units", None) or "millimeter").lower()
+    if name not in METRES:
+        raise MeshError(f"its unit {name!r} is none of 3MF: {', '.join(METRES)}")
+    return METRES[name]
+
+
+def _import_readers(ending: str) -> None:
+    """What trimesh reads a format with; it would only say so once it has opened the file."""
+    if ending in STEP:
+        with extra("cad", "STEP files"):
+            import cascadio  # noqa: F401
+    elif ending == ".3mf":
+        with extra("meshes", "3MF files"):
+            import lxml  # noqa: F401
+            import networkx  # noqa: F401
+
+
 def load(path: Path, whole: bool = True) -> Any:
     """What trimesh reads: one mesh, or unless it is to be `whole`, perhaps a scene."""
-    if path.suffix.lower() == ".msh":
+    ending = path.suffix.lower()
+    if ending == ".msh":
         return read_msh(path)
+    _import_readers(ending)
     with extra("meshes", "mesh files"):
         import trimesh
 
     reader = trimesh.load_mesh if whole else trimesh.load
+    options: dict[str, Any] = {"process": False, "merge_primitives": True}
+    if ending in STEP:
+        options |= {"tol_linear": SAG, "tol_angular": CHORDS}
+    else:
+        options["skip_materials"] = True
     try:
-        return reader(path, process=False, skip_materials=True, merge_primitives=True)
+        return reader(path, **options)
     except Exception as error:  # trimesh raises whatever a broken file runs it into
         reason = " ".join(str(error).split())[:200] or type(error).__name__
         raise MeshError(f"cannot be read as {path.suffix[1:].upper()}: {reason}") from None

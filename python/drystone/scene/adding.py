@@ -247,7 +247,7 @@ class Adding:
         mesh: str | PathLike[str] | Trimesh,
         position: Point = ORIGIN,
         orientation: Sequence[float] = UPRIGHT,
-        scale: float | tuple[float, float, float] = 1.0,
+        scale: float | tuple[float, float, float] | None = None,
         name: str | None = None,
         density: float = 1.0,
         friction: float | None = None,
@@ -264,9 +264,10 @@ class Adding:
     ) -> str:
         """Add a mesh as one rigid body and return its name.
 
-        `mesh` is a file (OBJ, STL, PLY, OFF, glTF, GLB) or a trimesh.Trimesh: a closed surface, in
-        a frame that stands at `position`, turned by `orientation`. `scale` makes metres of its
-        lengths. A file of several objects becomes one body, too; `imports.load` makes one of each.
+        `mesh` is a file (OBJ, STL, PLY, OFF, glTF, 3MF, STEP) or a trimesh.Trimesh: a closed
+        surface, in a frame that stands at `position`, turned by `orientation`. `scale` makes metres
+        of its lengths; by default it is the unit that a 3MF or STEP file states, else 1. A file of
+        several objects becomes one body, too; `imports.load` makes one of each.
 
         A mesh of few faces is cut into convex pieces, exactly. A curved one, or one that would fall
         into many pieces, is kept as a surface, as by `add_surface`, and a MeshWarning says so.
