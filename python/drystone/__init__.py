@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from drystone.motion.run import Run
     from drystone.motion.simulation import simulate
     from drystone.motion.world import StepRecord, World
-    from drystone.planning.answer import Blocked, Plan, TestRecord
+    from drystone.planning.answer import Blocked, Move, Plan, TestRecord
     from drystone.planning.search import plan
     from drystone.scene import Body, Contact, Load, Piece, Scene, Solid
 
@@ -57,6 +57,7 @@ __all__ = [
     "ManyPlans",
     "Margin",
     "MissingExtraError",
+    "Move",
     "Piece",
     "Plan",
     "Run",
@@ -91,6 +92,7 @@ __all__ = [
 _MODULES = ("contact", "imports", "lcp", "meshes", "scenes", "viewer")
 _HOMES = {
     "Blocked": "drystone.planning.answer",
+    "Move": "drystone.planning.answer",
     "Body": "drystone.scene",
     "BusyError": "drystone._core",
     "Contact": "drystone.scene",

@@ -380,7 +380,8 @@ class Plan:
     falls_next: list[str]
     held: list[list[str]]
     """For each structure on the way to `reached`, of one block, of two and so on."""
-    directions: list[tuple[float, float, float]]
+    moves: list[list[tuple[tuple[float, float, float], float]]]
+    groups: list[list[str]]
     """For each block of `reached`; empty if straight lines were not asked for."""
     blocked: list[tuple[str, list[tuple[tuple[float, float, float], list[str]]]]]
     """(body, [(direction, bodies in the way)])."""
@@ -727,14 +728,16 @@ def plan(
     threads: int | None = None,
     cones: tuple[int, str] | None = None,
     hold: int = 0,
-    directions: Sequence[tuple[float, float, float]] | None = None,
+    ways: tuple[Sequence[tuple[float, float, float]], int, int] | None = None,
+    obstacles: Scene | None = None,
     margin: float = 0.0,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
     `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
-    Blocks leave along straight lines if there are `directions`, be they none. With a `margin`, in
-    g, "reuse" tests every structure under accelerations to all sides.
+    Blocks leave along straight lines if there are `ways`: directions, be they none, how many moves
+    one after the other, and how many blocks together. With a `margin`, in g, "reuse" tests every
+    structure under accelerations to all sides.
     """
 
 def forces_along(

@@ -10,6 +10,7 @@ use crate::{
 use drystone::{
     AnyScene,
     formulate::{Assemble, Assembly, BlockSet, FrictionCone},
+    geometry::Piece,
     plan::{self as core, ClearPath, Conditions, Limits, PlanError, StabilityTest, Test, TestOutcome},
     scene::SceneOf,
 };
@@ -45,7 +46,8 @@ pub struct Plan {
     reached: Vec<String>,
     falls_next: Vec<String>,
     held: Vec<Vec<String>>,
-    directions: Vec<Way>,
+    moves: Vec<Vec<(Way, f64)>>,
+    groups: Vec<Vec<String>>,
     blocked: Vec<BlockedBy>,
     tests: usize,
     pivots: usize,
@@ -119,7 +121,7 @@ impl StabilityTest for Callback {
 
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // those of the Python function
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, directions=None, margin=0.0))]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, ways=None, obstacles=None, margin=0.0))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -131,13 +133,16 @@ pub fn plan(
     threads: Option<usize>,
     cones: Option<(usize, String)>,
     hold: usize,
-    directions: Option<Vec<[f64; 3]>>,
+    ways: Option<(Vec<[f64; 3]>, usize, usize)>,
+    obstacles: Option<PyRef<'_, Scene>>,
     margin: f64,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
-    let conditions = Conditions { hold, clear_path: directions.map(|directions| ClearPath { directions }), margin };
+    let (pieces, obstacles) = obstacles.map(|scene| pieces_and_names(&scene.now())).unwrap_or_default();
+    let clear = |(directions, moves, together)| ClearPath { directions, moves, together, obstacles: pieces };
+    let conditions = Conditions { hold, clear_path: ways.map(clear), margin };
     let mut watch = Watch::new(progress);
     let signals = watch.signals.clone();
     let start = Instant::now();
@@ -150,7 +155,7 @@ pub fn plan(
             Some(error) => Err(error),
             None => {
                 let stopped = core::Plan::stopped(core::Outcome::TimeLimit, start.elapsed());
-                to_python(py, None, stopped, Duration::ZERO)
+                to_python(py, None, &[], stopped, Duration::ZERO)
             }
         };
     };
@@ -167,7 +172,18 @@ pub fn plan(
     let planned = planned.ok_or_else(|| signals.error())?;
     match watch.error(py) {
         Some(error) => Err(error),
-        None => to_python(py, Some(assembly), planned.map_err(plan_error)?, contacts),
+        None => to_python(py, Some(assembly), &obstacles, planned.map_err(plan_error)?, contacts),
+    }
+}
+
+/// Of each body of a scene its convex pieces, or the triangles of its surface, and its name.
+fn pieces_and_names(scene: &AnyScene) -> (Vec<Vec<Piece>>, Vec<String>) {
+    fn of<S: Assemble>(scene: &SceneOf<S>) -> (Vec<Vec<Piece>>, Vec<String>) {
+        scene.bodies().iter().map(|body| (S::pieces(body), body.name.clone())).unzip()
+    }
+    match scene {
+        AnyScene::Plane(scene) => of(scene),
+        AnyScene::Space(scene) => of(scene),
     }
 }
 
@@ -207,11 +223,19 @@ fn clean(&[x, y, z]: &[f64; 3]) -> Way {
     (x + 0.0, y + 0.0, z + 0.0)
 }
 
-/// Without an assembly for a plan that names nothing.
-fn to_python(py: Python<'_>, assembly: Option<Assembly>, mut plan: core::Plan, contacts: Duration) -> PyResult<Plan> {
+/// Without an assembly for a plan that names nothing. Obstacles have their numbers after the bodies.
+fn to_python(
+    py: Python<'_>,
+    assembly: Option<Assembly>,
+    obstacles: &[String],
+    mut plan: core::Plan,
+    contacts: Duration,
+) -> PyResult<Plan> {
     let assembly = assembly.map(Arc::new);
-    let name =
-        |index: usize| assembly.as_ref().map_or_else(String::new, |assembly| assembly.bodies()[index].name.clone());
+    let name = |index: usize| {
+        let bodies = assembly.as_ref().map_or(&[][..], |assembly| assembly.bodies());
+        bodies.get(index).map_or_else(|| obstacles[index - bodies.len()].clone(), |body| body.name.clone())
+    };
     let names = |bodies: &[usize]| -> Vec<String> { bodies.iter().map(|&index| name(index)).collect() };
     let way = |(direction, bodies): &([f64; 3], Vec<usize>)| (clean(direction), names(bodies));
     let record = |record: &core::TestRecord| {
@@ -229,7 +253,12 @@ fn to_python(py: Python<'_>, assembly: Option<Assembly>, mut plan: core::Plan, c
         reached: names(&plan.reached),
         falls_next: names(&plan.falls_next),
         held: plan.held.iter().map(|held| names(held)).collect(),
-        directions: plan.directions.iter().map(clean).collect(),
+        moves: plan
+            .moves
+            .iter()
+            .map(|moves| moves.iter().map(|(way, length)| (clean(way), *length)).collect())
+            .collect(),
+        groups: plan.groups.iter().map(|group| names(group)).collect(),
         blocked: plan.blocked.iter().map(|b| (name(b.body), b.ways.iter().map(way).collect())).collect(),
         tests: plan.records.len(),
         pivots: plan.pivots(),

@@ -170,6 +170,16 @@ def plan(
     order: Annotated[
         OrderOfPlan, typer.Option(help="The first found, or that with the largest smallest margin.")
     ] = "any",
+    moves: Annotated[
+        int, typer.Option(min=1, max=2, help="With --clear-path: by so many straight moves.")
+    ] = 1,
+    together: Annotated[
+        int, typer.Option(min=1, help="With --clear-path: so many as one where they lock.")
+    ] = 1,
+    obstacles: Annotated[
+        str | None,
+        typer.Option(help="With --clear-path: a scene whose bodies are only in the way."),
+    ] = None,
     facets: Facets = 8,
     cone: Pyramid = "inscribed",
     as_json: AsJson = False,
@@ -209,6 +219,10 @@ def plan(
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
         if margin or order != "any":
             raise InputError(f"{scene} is a folder: --margin and --order are for one scene")
+        if moves > 1 or together > 1 or obstacles is not None:
+            raise InputError(
+                f"{scene} is a folder: --moves, --together and --obstacles are for one scene"
+            )
         where = engine or "threads"
         limits = (node_limit, time_limit)
         return plan_many.run(
@@ -242,6 +256,9 @@ def plan(
         cone,
         as_json,
         output,
+        moves,
+        together,
+        obstacles,
     )
 
 

@@ -7,6 +7,7 @@ import sys
 from itertools import groupby
 from pathlib import Path
 
+from drystone.cli.errors import InputError
 from drystone.cli.inputs import (
     FILMS,
     kind_of,
@@ -43,10 +44,16 @@ def run(
     cone: Pyramid,
     as_json: bool,
     output: Path | None,
+    moves: int,
+    together: int,
+    obstacles: str | None,
 ) -> int:
     """0 if an order was found, 1 if not."""
+    if not clear_path and (moves > 1 or together > 1 or obstacles is not None):
+        raise InputError("--moves, --together and --obstacles are for --clear-path")
     picture = picture_path(output, ".html", *FILMS)
     scene = load_scene(scene_name)
+    in_the_way = None if obstacles is None else load_scene(obstacles)
     with PlanProgress() as progress:
         found = plan(
             scene,
@@ -60,6 +67,9 @@ def run(
             clear_path,
             margin=margin,
             order=order,
+            moves=moves,
+            together=together,
+            obstacles=in_the_way,
             facets=facets,
             cone=cone,
         )
@@ -100,8 +110,10 @@ def _print(found: Plan, picture: Path | None) -> None:
         told.add_row("hold and release", _hold_steps(found))
         if len(found.scene.contacts) * len(found.order or found.reached) <= MOST_POINTS:
             told.add_row("hands bear at most", _hands(found))
-    if found.directions:
+    if found.moves:
         told.add_row("leaving towards", _directions(found))
+    for group in found.groups:
+        told.add_row("leaving together", names(group))
     for one in found.blocked:
         told.add_row(f"in the way of {shown(one.name)}", names(one.by))
     told.add_row("stability test", found.test)
@@ -132,7 +144,7 @@ def _hands(found: Plan) -> str:
 
 def _directions(found: Plan) -> str:
     """Rounded, without minus zeros; runs of the same one are counted."""
-    texts = (_numbers(way) for way in found.directions)
+    texts = (" then ".join(_numbers(move.direction) for move in moves) for moves in found.moves)
     runs = ((text, len(list(run))) for text, run in groupby(texts))
     return " ".join(text if count == 1 else f"{count} x {text}" for text, count in runs)
 

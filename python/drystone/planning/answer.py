@@ -66,6 +66,18 @@ class Blocked:
         return tuple(dict.fromkeys(name for _, names in self.ways for name in names))
 
 
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A straight move of a block on its way out."""
+
+    direction: tuple[float, ...]
+    """A unit vector."""
+    length: float
+    """Metres. The last move of a block goes on as far as one likes: its length is how far it is
+    to freedom, when the box around the block (along the axes of the world) is out of the boxes
+    around all that remain."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Plan(Paged):
     """The answer of `plan`."""
@@ -92,7 +104,12 @@ class Plan(Paged):
     Without an order the same for `reached`, taken apart backwards."""
     directions: tuple[tuple[float, ...], ...]
     """With `clear_path`: for each block of `order` the unit vector along which it leaves. Without
-    an order the same for `reached`, taken apart backwards."""
+    an order the same for `reached`, taken apart backwards. Of two moves it is the first."""
+    moves: tuple[tuple[Move, ...], ...]
+    """The same with lengths, and with all moves of a block."""
+    groups: tuple[tuple[str, ...], ...]
+    """With `together`: the blocks that leave as one, first removed first; those of a group come one
+    after the other in `order`."""
     blocked: tuple[Blocked, ...]
     """With `clear_path` and no order: the blocks that lock one another in; or, if none do, those
     that cannot be added to `reached` because something is in the way."""
@@ -132,6 +149,10 @@ class Plan(Paged):
         cones: tuple[int, str],
         margin: float = 0.0,
     ) -> Plan:
+        way_out = tuple(
+            tuple(Move(way[: scene.dimension], length) for way, length in moves)
+            for moves in reversed(core.moves)
+        )
         return cls(
             core.found,
             core.status,
@@ -139,7 +160,9 @@ class Plan(Paged):
             tuple(core.reached),
             tuple(core.falls_next),
             tuple(tuple(held) for held in reversed(core.held)),
-            tuple(way[: scene.dimension] for way in reversed(core.directions)),
+            tuple(moves[0].direction for moves in way_out),
+            way_out,
+            tuple(tuple(reversed(group)) for group in reversed(core.groups)),
             tuple(
                 Blocked(name, tuple((way[: scene.dimension], tuple(by)) for way, by in ways))
                 for name, ways in core.blocked
@@ -221,7 +244,8 @@ class Plan(Paged):
             bearing = f", each bearing {self.margin:.3g} g sideways" if self.margin else ""
             return (
                 f"Order found for {counted(len(self.order), 'block')}{bearing}; {work}.\n"
-                f"Remove first: {shorten(self.order)}.{self._said_of_holds()}"
+                f"Remove first: {shorten(self.order)}."
+                f"{self._said_of_groups()}{self._said_of_holds()}"
             )
         text = f"{ENDINGS.get(self.status, self.status)}; {work}."
         if self.margin:
@@ -243,6 +267,10 @@ class Plan(Paged):
     def table(self, rows: int = MOST_ROWS) -> str:
         """The first `rows` steps of the order as text: what is removed, held, and whereto."""
         return later.table(self, rows)
+
+    def _said_of_groups(self) -> str:
+        groups = " and ".join(shorten(group) for group in self.groups)
+        return f"\nTogether leave {groups}." if groups else ""
 
     def _said_of_holds(self) -> str:
         steps = [name for action, name, _ in self.hold_steps if action == "hold"]
@@ -275,6 +303,11 @@ class Plan(Paged):
             ),
             "hold_steps": [list(step) for step in self.hold_steps],
             "directions": [list(direction) for direction in self.directions],
+            "moves": [
+                [{"direction": list(move.direction), "length": move.length} for move in moves]
+                for moves in self.moves
+            ],
+            "groups": [list(group) for group in self.groups],
             "blocked": [
                 {
                     "name": one.name,

@@ -42,6 +42,9 @@ def plan(
     *,
     margin: float = 0.0,
     order: OrderOfPlan = "any",
+    moves: int = 1,
+    together: int = 1,
+    obstacles: Scene | None = None,
     facets: int = FACETS,
     cone: Pyramid = INSCRIBED,
 ) -> Plan:
@@ -71,7 +74,14 @@ def plan(
     slide along them. Directions are tried in this order: `directions`, if given (vectors of any
     length); against gravity, along the axes, along and across the block's contacts; and, if these
     give no order, at right angles to one or two faces of the block and of what is near. The first
-    one that is free is in `Plan.directions`.
+    one that is free is in `Plan.directions`, and how far it is to freedom in `Plan.moves`.
+
+    - With `moves=2` a block that is not free along one line may go along one until it is stopped,
+      or comes past a face, and leave along another.
+    - With `together=k` up to k blocks leave as one where blocks lock one another in: `Plan.groups`.
+      A group stands with all of it there; how it comes apart afterwards is not planned.
+    - `obstacles` is a scene whose bodies are in the way and bear nothing: a table, a fixture. Fixed
+      bodies of `scene` are in the way as well.
 
     `node_limit` bounds the number of tests, `time_limit` the seconds of the whole call. A limit
     reached, or Ctrl-C, is a status of the plan, which then holds the best so far. `progress` is
@@ -106,7 +116,8 @@ def plan(
     >>> ds.plan(ds.scenes.arch(7)).status, ds.plan(ds.scenes.arch(7), hold=1).status
     ('no_order', 'found')
     """
-    for count, what in ((hold, "hold"), (node_limit, "node_limit"), (threads, "threads")):
+    counts = ((hold, "hold"), (node_limit, "node_limit"), (threads, "threads"))
+    for count, what in (*counts, (moves, "moves"), (together, "together")):
         if count is not None:
             whole(count, what)
     if time_limit is not None:
@@ -120,8 +131,7 @@ def plan(
         raise ValueError(f"margin is {margin}: it must be zero or more, in g")
     if (least > 0 or order == "robust") and (hold or test != "reuse"):
         raise ValueError('margins go with test="reuse" and hold=0')
-    if directions is not None and not clear_path:
-        raise ValueError("directions are for straight ways out: give clear_path=True with them")
+    _check_ways(scene, clear_path, directions, moves, together, obstacles)
     for limit, what in ((node_limit, "node_limit"), (time_limit, "time_limit")):
         if limit is not None and not limit >= 0:
             raise ValueError(f"{what} is {limit}: it must be zero or more")
@@ -141,12 +151,45 @@ def plan(
             threads,
             cones,
             hold,
-            [_way(scene, way) for way in directions or ()] if clear_path else None,
+            ([_way(scene, way) for way in directions or ()], moves, together)
+            if clear_path
+            else None,
+            None if obstacles is None else scene_of(obstacles)._core,
             with_margin,
         )
         return Plan._of(core, test, scene, cones, with_margin)
 
     return robust(planned, least) if order == "robust" else planned(least)
+
+
+def _check_ways(
+    scene: Scene,
+    clear_path: bool,
+    directions: Sequence[Sequence[float]] | None,
+    moves: int,
+    together: int,
+    obstacles: Scene | None,
+) -> None:
+    if moves not in (1, 2):
+        raise ValueError(f"moves is {moves!r}: a block leaves by one straight move or by two")
+    if together < 1:
+        raise ValueError(f"together is {together!r}: it must be one or more")
+    asked = {
+        "directions are": directions is not None,
+        "moves are": moves > 1,
+        "together is": together > 1,
+        "obstacles are": obstacles is not None,
+    }
+    for what, is_asked in asked.items():
+        if is_asked and not clear_path:
+            raise ValueError(
+                f"{what} for straight ways out: give clear_path=True with "
+                f"{'it' if what.endswith('is') else 'them'}"
+            )
+    if obstacles is not None and scene_of(obstacles).dimension != scene.dimension:
+        raise ValueError(
+            f"obstacles is a scene of dimension {obstacles.dimension}, not {scene.dimension}"
+        )
 
 
 def _way(scene: Scene, way: Sequence[float]) -> tuple[float, float, float]:

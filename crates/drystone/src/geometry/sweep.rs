@@ -20,7 +20,7 @@ use super::{
 };
 use crate::interrupt::poll;
 use parry3d_f64::{
-    bounding_volume::Aabb,
+    bounding_volume::{Aabb, BoundingVolume},
     partitioning::{Bvh, BvhBuildStrategy, BvhNode},
 };
 
@@ -29,7 +29,7 @@ use parry3d_f64::{
 const SLIDING: f64 = 1e-9;
 
 /// A convex piece. One in the plane is a column without end, whose edges are upright.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
     /// In the world, metres.
     vertices: Vec<[f64; 3]>,
@@ -124,6 +124,46 @@ impl Piece {
         ![back].into_iter().chain(both).chain(faces).any(parts)
     }
 
+    /// How far this piece can be moved along a unit direction before it is in another that stays by more than the tolerance,
+    /// metres; infinite if it never is.
+    ///
+    /// The other piece less this one is a convex body whose faces have the normals that [`Self::is_stopped_by`] tries; each face is
+    /// moved inward by the tolerance, and the half-line along the direction is cut with it.
+    pub fn reach(&self, other: &Self, direction: [f64; 3], tolerance: f64) -> f64 {
+        if self.is_far_past(other, direction) {
+            return f64::INFINITY;
+        }
+        poll(self.edges.len() * other.edges.len() * (self.vertices.len() + other.vertices.len()));
+        let edges = self.edges.iter().flat_map(|&a| other.edges.iter().filter_map(move |&b| unit(cross(a, b))));
+        let faces = self.normals.iter().map(|n| n.map(|x| -x)).chain(other.normals.iter().copied());
+        let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
+        for n in faces.chain(edges.flat_map(|n| [n, n.map(|x| -x)])) {
+            let (room, along) = (-self.gap(other, n.map(|x| -x)) - tolerance, dot(n, direction));
+            if along.abs() <= SLIDING {
+                if room <= 0.0 {
+                    return f64::INFINITY;
+                }
+            } else if along < 0.0 {
+                enters = enters.max(room / along);
+            } else {
+                leaves = leaves.min(room / along);
+            }
+        }
+        if enters < leaves { enters } else { f64::INFINITY }
+    }
+
+    /// The same piece elsewhere.
+    pub fn moved(&self, by: [f64; 3]) -> Self {
+        let plus = |v: &[f64; 3]| [v[0] + by[0], v[1] + by[1], v[2] + by[2]];
+        Self { vertices: self.vertices.iter().map(plus).collect(), middle: plus(&self.middle), ..self.clone() }
+    }
+
+    /// Outward unit normals of the faces, each with how far its face is along it, metres.
+    pub fn planes(&self) -> impl Iterator<Item = ([f64; 3], f64)> + '_ {
+        let far = |n: [f64; 3]| self.vertices.iter().map(|&v| dot(n, v)).fold(f64::NEG_INFINITY, f64::max);
+        self.normals.iter().map(move |&n| (n, far(n)))
+    }
+
     /// Whether balls around both pieces show that they never meet: the other is behind, or far beside the way.
     fn is_far_past(&self, other: &Self, direction: [f64; 3]) -> bool {
         let (there, apart) = (minus(other.middle, self.middle), self.radius + other.radius);
@@ -149,6 +189,8 @@ impl Piece {
 #[derive(Debug, Clone)]
 pub struct Sweeping {
     pieces: Vec<Piece>,
+    /// Around all of them.
+    bounds: Aabb,
     /// Of many pieces.
     tree: Option<Bvh>,
 }
@@ -159,12 +201,13 @@ const FEW: usize = 64;
 impl Sweeping {
     /// A body of these pieces, or triangles.
     pub fn of(pieces: Vec<Piece>) -> Self {
+        let boxes: Vec<Aabb> = pieces.iter().map(Piece::bounds).collect();
+        let bounds = boxes.iter().fold(Aabb::new_invalid(), |all, one| all.merged(one));
         let tree = (pieces.len() > FEW).then(|| {
             poll(1000 * pieces.len());
-            let boxes: Vec<Aabb> = pieces.iter().map(Piece::bounds).collect();
             Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes)
         });
-        Self { pieces, tree }
+        Self { pieces, bounds, tree }
     }
 
     /// Whether the body is within a surface of many triangles.
@@ -188,38 +231,81 @@ impl Sweeping {
 
     /// Whether this body, moved along a unit direction as far as one likes, would enter another; see [`Piece::is_stopped_by`].
     pub fn is_stopped_by(&self, other: &Self, direction: [f64; 3], tolerance: f64) -> bool {
-        let stops = |a: &Piece, b: &Piece| a.is_stopped_by(b, direction, tolerance);
+        self.any_on_the_way(other, [0.0; 3], direction, &mut |a, b| a.is_stopped_by(b, direction, tolerance))
+    }
+
+    /// The same from another place, which is so far from where it is.
+    pub fn is_stopped_from(&self, by: [f64; 3], other: &Self, direction: [f64; 3], tolerance: f64) -> bool {
+        self.any_on_the_way(other, by, direction, &mut |a, b| a.moved(by).is_stopped_by(b, direction, tolerance))
+    }
+
+    /// How far it can be moved; see [`Piece::reach`].
+    pub fn reach(&self, other: &Self, direction: [f64; 3], tolerance: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        self.any_on_the_way(other, [0.0; 3], direction, &mut |a, b| {
+            least = least.min(a.reach(b, direction, tolerance));
+            least <= 0.0
+        });
+        least
+    }
+
+    /// How far along a unit direction the box around this body, moved so from another place, is for the last time within the tolerance of
+    /// the box around another, metres; zero if it never is.
+    pub fn passes(&self, by: [f64; 3], other: &Self, direction: [f64; 3], tolerance: f64) -> f64 {
+        let (by, more) = (Vector3::from_array(by), Vector3::splat(tolerance));
+        let (own, there) = (self.bounds, other.bounds);
+        let own = [own.mins + by - more, own.maxs + by + more];
+        let when = times_of_meeting(own, [there.mins, there.maxs], direction);
+        when.map_or(0.0, |[_, last]| last)
+    }
+
+    /// Whether `holds` is true for a pair of pieces of both bodies whose boxes come to touch as this one moves along a direction from
+    /// so far from where it is.
+    fn any_on_the_way(
+        &self,
+        other: &Self,
+        by: [f64; 3],
+        direction: [f64; 3],
+        holds: &mut dyn FnMut(&Piece, &Piece) -> bool,
+    ) -> bool {
+        let by = Vector3::from_array(by);
+        let meet = |low: Vector3, high: Vector3, there: [Vector3; 2]| {
+            times_of_meeting([low + by, high + by], there, direction).is_some()
+        };
         match (&self.tree, &other.tree) {
             (Some(own), Some(others)) => {
-                let meet =
-                    |m: &BvhNode, n: &BvhNode| meet_on_the_way([m.mins(), m.maxs()], [n.mins(), n.maxs()], direction);
-                let mut pairs = own.leaf_pairs(others, meet);
-                pairs.any(|(a, b)| stops(&self.pieces[a as usize], &other.pieces[b as usize]))
+                let near = |m: &BvhNode, n: &BvhNode| meet(m.mins(), m.maxs(), [n.mins(), n.maxs()]);
+                let mut pairs = own.leaf_pairs(others, near);
+                pairs.any(|(a, b)| holds(&self.pieces[a as usize], &other.pieces[b as usize]))
             }
             (Some(own), None) => other.pieces.iter().any(|b| {
                 let there = b.bounds();
-                let meet = |m: &BvhNode| meet_on_the_way([m.mins(), m.maxs()], [there.mins, there.maxs], direction);
-                own.leaves(meet).any(|a| stops(&self.pieces[a as usize], b))
+                let near = |m: &BvhNode| meet(m.mins(), m.maxs(), [there.mins, there.maxs]);
+                own.leaves(near).any(|a| holds(&self.pieces[a as usize], b))
             }),
             (None, Some(others)) => self.pieces.iter().any(|a| {
                 let here = a.bounds();
-                let meet = |n: &BvhNode| meet_on_the_way([here.mins, here.maxs], [n.mins(), n.maxs()], direction);
-                others.leaves(meet).any(|b| stops(a, &other.pieces[b as usize]))
+                let near = |n: &BvhNode| meet(here.mins, here.maxs, [n.mins(), n.maxs()]);
+                others.leaves(near).any(|b| holds(a, &other.pieces[b as usize]))
             }),
-            (None, None) => self.pieces.iter().any(|a| other.pieces.iter().any(|b| stops(a, b))),
+            (None, None) => self.pieces.iter().any(|a| other.pieces.iter().any(|b| holds(a, b))),
         }
     }
 }
 
-/// Whether a box that moves along a direction comes to touch another.
-fn meet_on_the_way([low, high]: [Vector3; 2], [there_low, there_high]: [Vector3; 2], direction: [f64; 3]) -> bool {
+/// From when to when a box that moves along a direction, one metre a unit of time, touches another; None if it never does.
+fn times_of_meeting(
+    [low, high]: [Vector3; 2],
+    [there_low, there_high]: [Vector3; 2],
+    direction: [f64; 3],
+) -> Option<[f64; 2]> {
     let (mut first, mut last) = (0.0_f64, f64::INFINITY);
     for k in 0..3 {
         let (ahead, past) = (there_low[k] - high[k], there_high[k] - low[k]);
         let along = direction[k];
         if along.abs() <= SLIDING {
             if ahead > 0.0 || past < 0.0 {
-                return false;
+                return None;
             }
             continue;
         }
@@ -227,7 +313,7 @@ fn meet_on_the_way([low, high]: [Vector3; 2], [there_low, there_high]: [Vector3;
         first = first.max(enter);
         last = last.min(leave);
     }
-    first <= last
+    (first <= last).then_some([first, last])
 }
 
 /// The unit vector along another one, however short.
@@ -311,6 +397,21 @@ mod tests {
             seen[usize::from(met)] += 1;
         }
         assert!(seen[0] > 200 && seen[1] > 100, "{seen:?}");
+    }
+
+    #[test]
+    fn how_far_it_goes_is_where_a_stop_begins() {
+        let (block, stop) = (brick([0.0; 3], [1.0; 3]), brick([0.5, -1.0, 3.0], [2.0, 5.0, 4.0]));
+        assert_eq!(block.reach(&stop, [0.0, 0.0, 1.0], 0.0), 2.0);
+        assert!((block.reach(&stop, [0.0, 0.0, 1.0], 0.01) - 2.01).abs() < 1e-12);
+        assert_eq!(block.reach(&stop, [0.0, 0.0, -1.0], 0.0), f64::INFINITY);
+        assert_eq!(block.reach(&stop, [-1.0, 0.0, 0.0], 0.0), f64::INFINITY);
+        // Sixty degrees from upright it goes twice as far; a ramp is met where its edge is.
+        let slanted = unit([0.75_f64.sqrt(), 0.0, 0.5]).unwrap();
+        assert!((block.reach(&brick([-9.0, -9.0, 3.0], [99.0, 9.0, 4.0]), slanted, 0.0) - 4.0).abs() < 1e-12);
+        assert_eq!(block.reach(&brick([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]), [0.0, 0.0, 1.0], 1e-9), f64::INFINITY);
+        assert_eq!(block.reach(&brick([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]), [1.0, 0.0, 0.0], 0.0), 0.0);
+        assert!(!block.moved([2.0, 0.0, 0.0]).is_stopped_by(&stop, [0.0, 0.0, 1.0], 1e-9));
     }
 
     #[test]

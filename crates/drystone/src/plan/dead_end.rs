@@ -37,7 +37,7 @@ pub(super) fn dead_end(
     let mut current = put_up(test, touching, reached)?;
     let (mut falls, mut from) = (Vec::new(), 0);
     while let Some((place, block)) = touching.candidate(&current, from) {
-        if paths.is_some_and(|paths| paths.way_out(block, &current).is_none()) {
+        if paths.is_some_and(|paths| !paths.can_leave(block, &current)) {
             from = place + 1;
             continue;
         }

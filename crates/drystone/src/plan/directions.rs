@@ -51,6 +51,11 @@ fn across(assembly: &Assembly, normal: [f64; 3]) -> Vec<[f64; 3]> {
     level.into_iter().flat_map(|level| [level, cross(normal, level)]).collect()
 }
 
+/// Directions without those that come again.
+pub(super) fn merged<'a>(directions: impl Iterator<Item = &'a [f64; 3]>) -> Vec<[f64; 3]> {
+    directions.copied().fold(Vec::new(), with_new)
+}
+
 fn with_new(list: Vec<[f64; 3]>, direction: [f64; 3]) -> Vec<[f64; 3]> {
     with_new_by(SAME, list, direction)
 }

@@ -187,6 +187,15 @@ impl<'a> Holding<'a> {
         moving
     }
 
+    /// Brings the solver to the current sub-assembly.
+    fn go_to_current(&mut self) {
+        if !self.at_current
+            && let Some(current) = self.path.last()
+        {
+            self.solver.roll_back(current.unheld);
+        }
+    }
+
     /// Whether a hold can follow one of the current sub-assembly's.
     fn can_follow(&self, held: &[usize]) -> bool {
         let before = self.path.last().map_or(&[][..], |level| &level.holds);
@@ -201,11 +210,7 @@ pub(super) fn hands_needed(before: &[usize], after: &[usize], added: usize) -> u
 
 impl StabilityTest for Holding<'_> {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
-        if !self.at_current
-            && let Some(current) = self.path.last()
-        {
-            self.solver.roll_back(current.unheld);
-        }
+        self.go_to_current();
         self.at_current = false;
         self.added = added;
         self.holds.clear();
@@ -226,6 +231,16 @@ impl StabilityTest for Holding<'_> {
         self.undecided += usize::from(!stands && self.collapses.is_empty());
         let borderline = unheld.is_none();
         Ok(TestOutcome { stands, borderline, pivots: self.solver.counts().pivots - before })
+    }
+
+    /// The hands hold on to what they hold.
+    fn carry(&mut self, _blocks: &BlockSet, added: usize) -> Result<usize, PlanError> {
+        self.go_to_current();
+        self.solver.add_rows(self.rows.of(added));
+        let holds = self.path.last().map_or_else(Vec::new, |before| before.holds.clone());
+        self.path.push(Level { unheld: self.solver.mark(), added, holds });
+        self.at_current = true;
+        Ok(0)
     }
 
     fn explains(&self) -> bool {

@@ -14,6 +14,7 @@ mod collapse;
 mod dead_end;
 mod directions;
 mod forces;
+mod found;
 mod graph;
 mod grips;
 mod hitting;
@@ -34,6 +35,7 @@ mod search;
 mod stability;
 #[cfg(test)]
 mod takedown_tests;
+mod together;
 mod touching;
 mod under_each;
 mod visited;
@@ -41,14 +43,12 @@ mod whole;
 mod with_hands;
 
 pub use ahead::Ahead;
-pub use clear_path::Blocked;
+pub use clear_path::{Blocked, ClearPath, Moves};
 pub use collapse::Collapse;
 pub use forces::{Course, StructureForces, WhichForces, forces_along};
 pub use graph::{GraphNode, disassembly_graph};
 pub use methods::{ByBlocks, ByLemke};
-pub use outcome::{
-    ClearPath, Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord,
-};
+pub use outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, Progress, Quiet, Stage, TestRecord};
 pub use planning::{plan, plan_assembly, plan_assembly_under, plan_under, plan_with, plan_with_under};
 pub use replay::{Recorder, Replay, Step, replay};
 pub use reuse::Reuse;

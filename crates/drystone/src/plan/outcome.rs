@@ -1,6 +1,9 @@
 //! What a search is told, and what it answers.
 
-use super::{clear_path::Blocked, stability::TestOutcome};
+use super::{
+    clear_path::{Blocked, ClearPath, Moves},
+    stability::TestOutcome,
+};
 use crate::{check::Verdict, interrupt::Interrupt};
 use std::{
     thread,
@@ -65,14 +68,6 @@ pub struct Conditions {
     /// Every structure on the way, and the complete one, stands under any horizontal acceleration up to this one, over gravity; permanent
     /// loads stay as they are. In space it is up to 2 % more for some directions. Not with blocks held.
     pub margin: f64,
-}
-
-/// How blocks may leave along a straight line.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct ClearPath {
-    /// Directions to try first, of any length. The others are: against gravity, along the axes, and along and across the
-    /// block's contacts; where these give no order, also those square to one or two faces of the block and of what is near.
-    pub directions: Vec<[f64; 3]>,
 }
 
 /// How a search ended.
@@ -156,7 +151,7 @@ impl Monitor for Quiet {
 /// One stability test of a search, in the order in which they were made (Fig. 6 plots them).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TestRecord {
-    /// Movable blocks in the sub-assembly.
+    /// Movable blocks in the sub-assembly; those that leave together count as one.
     pub size: usize,
     /// What the test said and cost.
     pub outcome: TestOutcome,
@@ -176,8 +171,10 @@ pub struct Plan {
     pub reached: Vec<usize>,
     /// For each structure on the way to `reached`, of one block, of two and so on: the blocks held.
     pub held: Vec<Vec<usize>>,
-    /// For each block of `reached`, if it has to leave along a straight line: in which direction it does (unit vectors).
-    pub directions: Vec<[f64; 3]>,
+    /// For each block of `reached`, if it has to leave along straight lines: by which moves it does.
+    pub moves: Vec<Moves>,
+    /// Blocks that leave together, where some do: each group's come one after the other in `reached`.
+    pub groups: Vec<Vec<usize>>,
     /// With straight lines asked for and no order: blocks that cannot be put on `reached`, and what is in the way; if the
     /// outcome is [`Outcome::Locked`], the blocks that lock one another in.
     pub blocked: Vec<Blocked>,
@@ -205,7 +202,8 @@ impl Plan {
             order: Vec::new(),
             reached: Vec::new(),
             held: Vec::new(),
-            directions: Vec::new(),
+            moves: Vec::new(),
+            groups: Vec::new(),
             blocked: Vec::new(),
             falls_next: Vec::new(),
             records: Vec::new(),

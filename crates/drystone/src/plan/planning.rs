@@ -1,25 +1,26 @@
 //! From a scene to a plan: the check of the complete assembly, and the search.
 
 use super::ahead::Ahead;
-use super::clear_path::{Blocked, Paths};
+use super::clear_path::{Blocked, Moves, Paths};
 use super::dead_end::{dead_end, until_stopped};
+use super::found::{Found, check_alone};
 use super::in_turn::{InTurn, first_turn};
-use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan, TestRecord};
+use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan};
 use super::reuse::Reuse;
 use super::search::Clock;
 use super::stability::{FromScratch, PlanError, ReuseDantzig, StabilityTest, Test};
+use super::together::{search_units, units_of};
 use super::touching::Touching;
 use super::under_each::UnderEach;
 use super::whole::{Checked, check_before_search, check_beside, check_beside_search};
 use super::with_hands::search_with_hands;
 use crate::{
-    check::{Verdict, check_blocks},
+    check::check_blocks,
     error::SceneError,
     formulate::{Assemble, Assembly, BlockSet},
     limit::accelerated,
     scene::SceneOf,
 };
-use drystone_lcp::Status;
 use std::{
     sync::atomic::AtomicBool,
     time::{Duration, Instant},
@@ -198,24 +199,34 @@ pub fn plan_with_under<S: Assemble>(
     let Some(clear) = &conditions.clear_path else {
         return search_under(assembly, test, conditions.hold, None, limits, monitor);
     };
-    search_ways_out(assembly, test, conditions.hold, Paths::new(scene, assembly, &clear.directions)?, limits, monitor)
+    let paths = Paths::new(scene, assembly, clear)?;
+    search_ways_out(assembly, test, (conditions.hold, clear.together), paths, limits, monitor)
 }
 
 /// Searches with the directions at contacts, and where there is no order with them, again with those along faces, which
-/// are many more.
+/// are many more. What is locked with these may leave in groups.
 fn search_ways_out(
     assembly: &Assembly,
     test: &mut dyn StabilityTest,
-    hands: usize,
+    (hands, together): (usize, usize),
     mut paths: Paths<'_>,
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
     let start = Instant::now();
-    match limits.interrupt(start).run(|| paths.locked()) {
+    let groups = limits.interrupt(start).run(|| {
+        if paths.locked().is_empty() {
+            return None;
+        }
+        paths.try_faces();
+        (together > 1).then(|| paths.groups(together)).flatten().filter(|groups| !groups.is_empty())
+    });
+    match groups {
         None => return Ok(Plan::stopped(limits.stopped(start), start.elapsed())),
-        Some(locked) if locked.is_empty() => {}
-        Some(_) => drop(paths.try_faces()),
+        Some(None) => {}
+        Some(Some(groups)) => {
+            return plan_in_groups(assembly, test, hands, paths, &groups, limits.after(start), monitor);
+        }
     }
     let limits = limits.after(start);
     let first = search_under(assembly, test, hands, Some(&paths), limits, monitor)?;
@@ -236,29 +247,6 @@ fn search_ways_out(
     Ok(second)
 }
 
-/// What a search has found, blocks by their numbers among the movable ones.
-pub(super) struct Found {
-    pub outcome: Outcome,
-    pub reached: Vec<usize>,
-    pub held: Vec<Vec<usize>>,
-    pub falls_next: Vec<usize>,
-    pub records: Vec<TestRecord>,
-    pub shortcuts: usize,
-    whole: Option<Verdict>,
-    whole_time: Duration,
-}
-
-impl Found {
-    /// Whether "falls" would be said of what is borderline, or of what the check has no answer for.
-    fn is_undecided(&self) -> bool {
-        match self.outcome {
-            Outcome::WholeFalls => self.whole.as_ref().is_some_and(|whole| whole.status != Status::Solved),
-            Outcome::NoOrder => self.records.iter().any(|record| record.outcome.borderline),
-            _ => false,
-        }
-    }
-}
-
 fn search_under(
     assembly: &Assembly,
     test: &mut dyn StabilityTest,
@@ -276,7 +264,7 @@ fn search_under(
         locked => locked?.filter(|locked| !locked.is_empty()),
     };
     let mut found = match &locked {
-        Some(_) => check_locked(assembly, &clock),
+        Some(_) => check_alone(assembly, &clock, Outcome::Locked),
         None => search_unheld(assembly, &touching, paths, test, &mut clock)?,
     };
     if found.outcome == Outcome::NoOrder && hands > 0 {
@@ -285,63 +273,82 @@ fn search_under(
     if found.is_undecided() {
         found.outcome = Outcome::Undecided;
     }
-    let (directions, blocked) = paths.map_or_else(Default::default, |paths| ways(paths, &found, locked));
+    let alone: Vec<Vec<usize>> = (0..assembly.blocks()).map(|block| vec![block]).collect();
+    Ok(told(assembly, found, &alone, paths, locked, start.elapsed()))
+}
+
+/// Plans with groups of blocks that leave together.
+fn plan_in_groups(
+    assembly: &Assembly,
+    test: &mut dyn StabilityTest,
+    hands: usize,
+    mut paths: Paths<'_>,
+    groups: &[Vec<usize>],
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    let start = Instant::now();
+    let whole_falls = AtomicBool::new(false);
+    let mut clock = Clock::new(limits, monitor, &whole_falls);
+    let units = units_of(groups, assembly.blocks());
+    paths.join(&units);
+    let mut found = search_units(assembly, &units, &paths, test, hands, &mut clock)?;
+    if found.is_undecided() {
+        found.outcome = Outcome::Undecided;
+    }
+    Ok(told(assembly, found, &units, Some(&paths), None, start.elapsed()))
+}
+
+/// A plan of what was found of units, told in bodies.
+fn told(
+    assembly: &Assembly,
+    found: Found,
+    units: &[Vec<usize>],
+    paths: Option<&Paths<'_>>,
+    locked: Option<BlockSet>,
+    total: Duration,
+) -> Plan {
+    let (moves, blocked) = paths.map_or_else(Default::default, |paths| ways(paths, &found, locked));
     let bodies = |blocks: &[usize]| -> Vec<usize> { blocks.iter().map(|&b| assembly.body_index(b)).collect() };
-    let reached = bodies(&found.reached);
-    Ok(Plan {
+    let of_units = |some: &[usize]| -> Vec<usize> { some.iter().flat_map(|&unit| bodies(&units[unit])).collect() };
+    let reached = of_units(&found.reached);
+    let each = |(moves, &unit): (Moves, &usize)| vec![moves; units[unit].len()];
+    let together = found.reached.iter().filter(|&&unit| units[unit].len() > 1);
+    Plan {
         outcome: found.outcome,
         order: if found.outcome == Outcome::Found { reached.iter().rev().copied().collect() } else { Vec::new() },
+        groups: together.map(|&unit| bodies(&units[unit])).collect(),
+        moves: moves.into_iter().zip(&found.reached).flat_map(each).collect(),
         reached,
-        directions,
         blocked,
         held: found.held.iter().map(|held| bodies(held)).collect(),
-        falls_next: bodies(&found.falls_next),
+        falls_next: of_units(&found.falls_next),
         records: found.records,
         shortcuts: found.shortcuts,
         setup: Duration::ZERO,
-        total: start.elapsed(),
+        total,
         whole: found.whole,
         whole_time: found.whole_time,
-    })
+    }
 }
 
-/// In which direction each block reached leaves, and what is in the way of those that cannot come next.
-fn ways(paths: &Paths<'_>, found: &Found, locked: Option<BlockSet>) -> (Vec<[f64; 3]>, Vec<Blocked>) {
-    let blocks = paths.blocks();
-    let mut there = BlockSet::empty(blocks);
-    let mut directions = Vec::new();
-    for &block in &found.reached {
-        directions.extend(paths.way_out(block, &there));
-        there.insert(block);
+/// By which moves each unit reached leaves, and what is in the way of those that cannot come next.
+fn ways(paths: &Paths<'_>, found: &Found, locked: Option<BlockSet>) -> (Vec<Moves>, Vec<Blocked>) {
+    let units = paths.units();
+    let mut there = BlockSet::empty(units);
+    let mut moves = Vec::new();
+    for &unit in &found.reached {
+        moves.extend(paths.way_out(unit, &there));
+        there.insert(unit);
     }
     let blocked = match (found.outcome, locked) {
         (Outcome::Locked, Some(locked)) => paths.blocked(locked.iter(), &locked),
         (Outcome::NoOrder | Outcome::Undecided, _) => {
-            paths.blocked((0..blocks).filter(|&block| !there.contains(block)), &there)
+            paths.blocked((0..units).filter(|&unit| !there.contains(unit)), &there)
         }
         _ => Vec::new(),
     };
-    (directions, blocked)
-}
-
-/// What there is to say of an assembly with blocks that lock one another in.
-fn check_locked(assembly: &Assembly, clock: &Clock<'_>) -> Found {
-    let begin = Instant::now();
-    let whole = clock.interrupt.run(|| check_blocks(assembly, &BlockSet::full(assembly.blocks())));
-    Found {
-        outcome: match &whole {
-            None => clock.stopped(),
-            Some(whole) if whole.stable => Outcome::Locked,
-            Some(_) => Outcome::WholeFalls,
-        },
-        reached: Vec::new(),
-        held: Vec::new(),
-        falls_next: Vec::new(),
-        records: Vec::new(),
-        shortcuts: 0,
-        whole,
-        whole_time: begin.elapsed(),
-    }
+    (moves, blocked)
 }
 
 /// The search with nothing held, and the check of the whole.

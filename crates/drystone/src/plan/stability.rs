@@ -57,6 +57,17 @@ pub trait StabilityTest {
     /// [`PlanError`] if no answer can be given.
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError>;
 
+    /// Puts `added` on the current sub-assembly, whether that stands or not, and moves there: more comes together with it. Returns
+    /// the pivots made.
+    ///
+    /// # Errors
+    /// [`PlanError`] if that cannot be done.
+    fn carry(&mut self, blocks: &BlockSet, added: usize) -> Result<usize, PlanError> {
+        let outcome = self.test(blocks, added)?;
+        self.descend();
+        Ok(outcome.pivots)
+    }
+
     /// Whether this test finds a collapse motion of what falls.
     fn explains(&self) -> bool {
         false

@@ -34,6 +34,28 @@ impl Touching {
         Self { upward: assembly.upward(), neighbours, on_support }
     }
 
+    /// Those of units of blocks that come together; each is tried where its lowest block is.
+    pub fn of_units(assembly: &Assembly, units: &[Vec<usize>]) -> Self {
+        let of_blocks = Self::new(assembly);
+        let mut unit = vec![0; of_blocks.blocks()];
+        units.iter().enumerate().for_each(|(k, blocks)| blocks.iter().for_each(|&block| unit[block] = k));
+        let neighbours = units.iter().enumerate().map(|(k, blocks)| {
+            let touched = blocks.iter().flat_map(|&block| of_blocks.neighbours(block));
+            let mut list: Vec<usize> = touched.map(|&other| unit[other]).filter(|&other| other != k).collect();
+            list.sort_unstable();
+            list.dedup();
+            list
+        });
+        let on_support = units.iter().map(|blocks| blocks.iter().any(|&block| of_blocks.on_support[block]));
+        let mut upward: Vec<usize> = Vec::new();
+        for &block in &of_blocks.upward {
+            if !upward.contains(&unit[block]) {
+                upward.push(unit[block]);
+            }
+        }
+        Self { neighbours: neighbours.collect(), on_support: on_support.collect(), upward }
+    }
+
     /// Number of movable blocks.
     pub fn blocks(&self) -> usize {
         self.upward.len()

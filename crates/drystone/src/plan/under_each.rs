@@ -39,6 +39,10 @@ impl StabilityTest for UnderEach<'_> {
         Ok(all)
     }
 
+    fn carry(&mut self, blocks: &BlockSet, added: usize) -> Result<usize, PlanError> {
+        self.tests.iter_mut().map(|test| test.carry(blocks, added)).sum()
+    }
+
     fn explains(&self) -> bool {
         true
     }

@@ -6,11 +6,11 @@
 use super::candidates::Upward;
 use super::clear_path::Paths;
 use super::dead_end::{dead_end, put_up, until_stopped};
+use super::found::Found;
 use super::grips::fewest_grips;
 use super::holding::{FEW, Holding};
 use super::in_turn::{memory_for, take_turn};
 use super::outcome::Outcome;
-use super::planning::Found;
 use super::search::{Clock, Search};
 use super::stability::PlanError;
 use super::touching::Touching;

@@ -163,8 +163,9 @@ fn brute_force_finds_an_order_where_the_search_does() {
 fn verify(scene: &Scene, plan: &Plan) {
     let fixed = (0..scene.bodies().len()).filter(|&body| scene.bodies()[body].fixed);
     let fixed: Vec<usize> = fixed.collect();
-    assert_eq!(plan.directions.len(), plan.reached.len());
-    for (placed, (&body, &[x, y, _])) in plan.reached.iter().zip(&plan.directions).enumerate() {
+    assert_eq!(plan.moves.len(), plan.reached.len());
+    for (placed, (&body, moves)) in plan.reached.iter().zip(&plan.moves).enumerate() {
+        let [([x, y, _], _)] = moves[..] else { panic!("one move") };
         let there = plan.reached[..placed].iter().chain(&fixed);
         assert!(!there.into_iter().any(|&other| meets(scene, body, other, [x, y])));
     }
@@ -206,5 +207,6 @@ fn in_space_a_tongue_leaves_along_its_groove() {
     assert!(plan.blocked[0].ways.iter().all(|(_, by)| !by.is_empty()));
     let plan = closed_by([true, false]);
     assert_eq!((plan.outcome, plan.order.as_slice()), (Outcome::Found, &[5, 3][..]));
-    assert_eq!(plan.directions, [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    let directions: Vec<[f64; 3]> = plan.moves.iter().map(|moves| moves[0].0).collect();
+    assert_eq!(directions, [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 }
