@@ -10,7 +10,7 @@
 //! fall freely: both obey (1).
 //!
 //! Every solution has `a' M a = a' F - sum mu f_n |a_t|`: what the loads do beyond friction's loss moves the blocks. The search
-//! ([`search`]) makes that power as large as it can be over a linear relaxation of (1) ([`program`]), in which each contact may
+//! (`search.rs`) makes that power as large as it can be over a linear relaxation of (1) (`program.rs`), in which each contact may
 //! part, slide either way or rest, bounds from below what a contact bears where it slides, and splits where the relaxation breaks a
 //! law. Where it never exceeds zero the structure must stand. See docs/theory/strong-stability.md.
 
