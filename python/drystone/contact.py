@@ -21,7 +21,7 @@ array([ 0.2  , -0.012, -0.016])
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -39,6 +39,8 @@ from drystone.common.compressed import (
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+
+    from drystone.common.compressed import Matrix
 
 __all__ = ["ContactError", "Solution", "solve"]
 
@@ -70,8 +72,8 @@ class Solution:
 
 
 def solve(
-    M: Any,
-    J: Any,
+    M: Matrix,
+    J: Matrix,
     mu: ArrayLike,
     free: ArrayLike,
     offset: ArrayLike = 0.0,
@@ -193,7 +195,7 @@ def _rebounding(
     return np.where((share > 0) & (normal < 0) & (normal + offset < 0), share * normal, offset)
 
 
-def _mass(M: Any, n: int) -> Compressed:
+def _mass(M: Matrix, n: int) -> Compressed:
     if is_sparse(M):
         mass = by_columns(M, "M", ContactError)
     else:

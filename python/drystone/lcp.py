@@ -28,11 +28,13 @@ import numpy as np
 from drystone import _core
 from drystone._core import LcpError, StartError
 from drystone.common.arrays import floats, vector
-from drystone.common.compressed import by_columns
+from drystone.common.compressed import by_columns, is_sparse
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
+
+    from drystone.common.compressed import Matrix
 
 __all__ = [
     "METHODS",
@@ -114,12 +116,13 @@ class Solution:
         """This solution as a start for a larger problem, whose `indices` this problem has."""
         return Start(np.asarray(indices), self.z)
 
-    def recheck(self, M: Any, q: ArrayLike) -> float:
+    def recheck(self, M: Matrix, q: ArrayLike) -> float:
         """The `residual`, computed again from `M`, `q` and z alone, on `rows`."""
-        diagonal = np.asarray(M.diagonal(), dtype=np.float64)
+        matrix: Any = M if is_sparse(M) else np.asarray(M, dtype=np.float64)
+        diagonal = np.asarray(matrix.diagonal(), dtype=np.float64)
         unit = 1 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
         q = np.asarray(q, dtype=np.float64)
-        z, w = self.z / unit, unit * (M @ self.z + q)
+        z, w = self.z / unit, unit * (matrix @ self.z + q)
         z, w, q = z[self.rows], w[self.rows], (unit * q)[self.rows]
         worst = np.max(np.abs(np.minimum(z, w)), initial=0.0)
         scale = max(np.max(np.abs(q), initial=0.0), np.max(np.abs(z), initial=0.0))
@@ -127,7 +130,7 @@ class Solution:
 
 
 def solve(
-    M: Any,
+    M: Matrix,
     q: ArrayLike,
     start: Start | None = None,
     method: str = "dantzig",
@@ -232,7 +235,7 @@ class Solver:
 
     __slots__ = ("_core", "_n")
 
-    def __init__(self, M: Any, q: ArrayLike, pivot_limit: int | None = None) -> None:
+    def __init__(self, M: Matrix, q: ArrayLike, pivot_limit: int | None = None) -> None:
         _require_limit(pivot_limit)
         self._core = _core.LcpSolver(
             *by_columns(M, "M", LcpError, square=True).arrays, _vector(q, "q"), pivot_limit
@@ -241,7 +244,7 @@ class Solver:
 
     @classmethod
     def from_generators(
-        cls, G: Any, W: ArrayLike, h: ArrayLike, pivot_limit: int | None = None
+        cls, G: Matrix, W: ArrayLike, h: ArrayLike, pivot_limit: int | None = None
     ) -> Self:
         """M = G' W G and q = -G' W h, without forming anything dense.
 

@@ -92,6 +92,7 @@ def test_a_pivot_limit_is_a_status() -> None:
     assert solution.status == "pivot_limit"
     assert solution.pivots <= 2
     assert solution.recheck(M, q) > 1e-3
+    assert solution.recheck([list(row) for row in np.asarray(M)], q) == solution.recheck(M, q)
 
 
 def test_lemke_takes_a_matrix_that_is_not_symmetric() -> None:

@@ -108,7 +108,7 @@ def test_mp4_without_ffmpeg_says_what_to_do(
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("name", THINGS)
+@pytest.mark.parametrize("name", ["scene in space", "verdict", "plan", "run", "world"])
 def test_from_a_script_it_opens_in_the_browser(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     opened: list[str] = []
     monkeypatch.setattr(webbrowser, "open", lambda url: bool(opened.append(url)) or True)

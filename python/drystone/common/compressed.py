@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from drystone.common.arrays import floats
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
+    from scipy import sparse
 
     from drystone._core import DrystoneError
+
+    Matrix: TypeAlias = ArrayLike | sparse.sparray | sparse.spmatrix
+    """What a matrix may be given as: rows of numbers, or one of SciPy's sparse ones."""
 
 Arrays = tuple["NDArray[np.int64]", "NDArray[np.int64]", "NDArray[np.float64]"]
 
