@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import json
 import math
 import os
 import re
@@ -14,6 +15,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, get_args
 
+import numpy as np
 import pytest
 
 import drystone as ds
@@ -117,6 +119,37 @@ def test_an_angle_in_degrees_gets_a_hint() -> None:
     ds.Scene().add_box((0, 0), (1, 1), angle=-math.tau)  # a full turn is none of these
 
 
+@pytest.mark.parametrize("name", ["9", "b2", "0"])
+def test_another_number_is_no_suggestion(name: str) -> None:
+    with pytest.raises(ds.SceneError) as caught:
+        SCENE.body(name)
+    assert "did you mean" not in str(caught.value)
+    with pytest.raises(ds.SceneError, match='did you mean "ground"'):
+        SCENE.body("grund")
+
+
+RING = np.array([(0, 0), (2, 0), (1, 1.5), (0, 1)], dtype=float)
+
+
+@pytest.mark.parametrize(
+    "make", [lambda r: r[::-1], lambda r: [*r, r[0]], lambda r: [*r[::-1], r[-1]]]
+)
+def test_a_ring_may_be_closed_and_run_either_way(make: Callable[[Any], Any]) -> None:
+    scene = ds.Scene()
+    for ring in (RING, make(RING)):
+        scene.add_polygon(ring, name=f"{len(scene)}")
+    one, other = scene.bodies
+    assert one.mass == other.mass
+    assert one.centroid == pytest.approx(other.centroid)
+    assert len(other.vertices) == 4
+    told = json.loads(scene.to_json())
+    outline = told["bodies"][0]["polygon"]
+    outline["vertices"] = np.asarray(make(np.array(outline["vertices"]))).tolist()
+    read = ds.Scene.from_json(json.dumps(told)).bodies[0]
+    assert read.mass == one.mass
+    assert len(read.vertices) == 4
+
+
 def _public() -> Iterator[tuple[str, ast.FunctionDef]]:
     """Every function and method that users call."""
     for path in sorted((ROOT / "python/drystone").rglob("*.py")):
@@ -129,6 +162,11 @@ def _public() -> Iterator[tuple[str, ast.FunctionDef]]:
                         yield f"{node.name}.{inner.name}", inner
             elif isinstance(node, ast.FunctionDef) and node.name in ds.__all__:
                 yield node.name, node
+    for module in (ds.lcp, ds.contact):
+        tree = ast.parse(Path(str(module.__file__)).read_text())
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+                yield f"{module.__name__}.{node.name}", node
 
 
 def test_public_signatures_say_their_types() -> None:

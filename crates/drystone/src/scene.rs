@@ -286,7 +286,7 @@ impl Scene {
         }
     }
 
-    /// Adds a convex polygon by its corners in the world, counter-clockwise, in metres. Corners on
+    /// Adds a convex polygon by its corners in the world, in order round it, in metres. Corners on
     /// a straight line are merged. Returns the block's index.
     pub fn add_polygon(&mut self, vertices: &[[f64; 2]], options: BodyOptions) -> Result<usize, SceneError> {
         let frame = Pose { position: [0.0, 0.0], angle: 0.0 };

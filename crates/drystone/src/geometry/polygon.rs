@@ -43,9 +43,6 @@ pub enum ShapeFault {
     /// All vertices lie on a line.
     #[error("the polygon has zero area: give corners that are not all on one line")]
     ZeroArea,
-    /// The vertices run clockwise.
-    #[error("the vertices run clockwise: reverse their order (counter-clockwise)")]
-    Clockwise,
     /// A corner points inwards.
     #[error("the polygon is not convex at vertex {vertex}: split it into convex blocks")]
     NotConvex {
@@ -80,14 +77,12 @@ impl Polygon {
         Self::measured(corners.map(Vector::from_array).to_vec())
     }
 
-    /// A polygon from its corners in metres, counter-clockwise, and the centroid they had.
+    /// A polygon from its corners in metres, in order round it either way, and the centroid they had.
     ///
-    /// Corners on a straight line are merged. Corners whose centroid is the origin (to rounding)
+    /// A last corner that repeats the first closes the ring and is dropped. Corners on a straight line are merged. Corners whose centroid is the origin (to rounding)
     /// are kept bit for bit, so that a stored polygon comes back as it was.
     pub fn from_vertices(corners: &[[f64; 2]]) -> Result<(Self, [f64; 2]), ShapeFault> {
-        let given: Vec<Vector> = corners.iter().copied().map(Vector::from_array).collect();
-        let extent = check_corners(&given)?;
-        let convex = merge_straight(&given, extent)?;
+        let (convex, extent) = convex_corners(corners)?;
         let (local, centroid) = centred(convex, extent);
         Ok((Self::measured(local).with_area(extent)?, centroid.to_array()))
     }
@@ -95,10 +90,9 @@ impl Polygon {
     /// The same with its origin at a centre of mass, metres, which may be anywhere. About the origin the corners are kept bit
     /// for bit.
     pub fn about(corners: &[[f64; 2]], center_of_mass: [f64; 2]) -> Result<Self, ShapeFault> {
-        let given: Vec<Vector> = corners.iter().copied().map(Vector::from_array).collect();
-        let extent = check_corners(&given)?;
+        let (convex, extent) = convex_corners(corners)?;
         let center = Vector::from_array(center_of_mass);
-        let local: Vec<Vector> = merge_straight(&given, extent)?.into_iter().map(|v| v - center).collect();
+        let local: Vec<Vector> = convex.into_iter().map(|v| v - center).collect();
         // Measured about the centroid, so that nothing is lost however far away it is.
         let (near, centroid) = centred(local.clone(), extent);
         let radius = furthest(&local);
@@ -208,8 +202,27 @@ impl Shape for Polygon {
     }
 }
 
-/// Refuses what is no polygon at all; returns the larger side of the bounding box.
-fn check_corners(corners: &[Vector]) -> Result<f64, ShapeFault> {
+/// The corners counter-clockwise, each once and none on a straight line, and the larger side of the bounding box; refuses
+/// what is no convex polygon.
+fn convex_corners(corners: &[[f64; 2]]) -> Result<(Vec<Vector>, f64), ShapeFault> {
+    let mut given: Vec<Vector> = corners.iter().copied().map(Vector::from_array).collect();
+    if given.len() > 3 && given.first() == given.last() {
+        given.pop();
+    }
+    let (extent, twice_area) = measured_corners(&given)?;
+    if twice_area > 0.0 {
+        return Ok((merge_straight(&given, extent)?, extent));
+    }
+    given[1..].reverse();
+    let convex = merge_straight(&given, extent).map_err(|fault| match fault {
+        ShapeFault::NotConvex { vertex } => ShapeFault::NotConvex { vertex: (given.len() - vertex) % given.len() },
+        other => other,
+    })?;
+    Ok((convex, extent))
+}
+
+/// The larger side of the bounding box, and twice the area: negative of what runs clockwise.
+fn measured_corners(corners: &[Vector]) -> Result<(f64, f64), ShapeFault> {
     if corners.len() < 3 {
         return Err(ShapeFault::TooFewVertices { count: corners.len() });
     }
@@ -226,13 +239,7 @@ fn check_corners(corners: &[Vector]) -> Result<f64, ShapeFault> {
         }
     }
     let twice_area: f64 = sides(corners).map(|(a, b)| (a - corners[0]).perp_dot(b - corners[0])).sum();
-    if twice_area.abs() <= FLAT * extent * extent {
-        Err(ShapeFault::ZeroArea)
-    } else if twice_area < 0.0 {
-        Err(ShapeFault::Clockwise)
-    } else {
-        Ok(extent)
-    }
+    if twice_area.abs() <= FLAT * extent * extent { Err(ShapeFault::ZeroArea) } else { Ok((extent, twice_area)) }
 }
 
 /// Drops corners on a straight line, refuses dents and outlines that wind round twice.

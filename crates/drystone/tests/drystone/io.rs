@@ -168,8 +168,8 @@ fn missing_and_mistaken_values_are_named() {
             "bodies[0] \"a\": block \"a\": size[1] is -1: it must be greater than zero",
         ),
         (
-            r#"{"polygon": {"vertices": [[0, 0], [0, 1], [1, 0]]}}"#,
-            "bodies[0]: block \"b0\": the vertices run clockwise",
+            r#"{"polygon": {"vertices": [[0, 0], [1, 1], [2, 2]]}}"#,
+            "bodies[0]: block \"b0\": the polygon has zero area",
         ),
     ];
     for (body, expected) in cases {
