@@ -120,23 +120,26 @@ fn angular_momentum(world: &WorldInSpace, density: f64) -> [f64; 3] {
     momentum
 }
 
-/// What moves in a plane moves alike in space: sliding, toppling, falling over one another and collisions. Where a block comes
-/// off an edge, the two may hold it by the edge one step longer or less, which is the error of the integrator.
+/// What moves in a plane moves alike in space, sliding, toppling, falling over one another and collisions, until there is a choice. In
+/// step 83 of the falling column two faces that are turned by half a degree meet at an edge, and either may bear; in step 86 of the
+/// three segments Coulomb's law has two solutions, both exact to 1e-15: between two of the blocks that are pushed along the ground
+/// there is a force, or none. From there on the two differ by as much as the integrator is off.
 #[test]
 fn extruded_scenes_move_as_in_the_plane() {
-    let scenes: [(&str, Scene, usize, f64); 5] = [
-        ("slope", scenes::slope(35.0, 0.5, 0.7, 0.5).unwrap(), 240, 1e-9),
-        ("toppling", scenes::slope(40.0, 3.0, 0.4, 1.0).unwrap(), 100, 1e-7),
-        ("fall7", scenes::fall7(0.5).unwrap(), 240, 1e-4),
-        ("falling column", scenes::falling_column(0.2).unwrap(), 120, 1e-4),
-        ("three segments", scenes::three_segments(0.3).unwrap(), 100, 1e-4),
+    let scenes: [(&str, Scene, usize, usize); 5] = [
+        ("slope", scenes::slope(35.0, 0.5, 0.7, 0.5).unwrap(), 240, 240),
+        ("toppling", scenes::slope(40.0, 3.0, 0.4, 1.0).unwrap(), 100, 100),
+        ("fall7", scenes::fall7(0.5).unwrap(), 240, 240),
+        ("falling column", scenes::falling_column(0.2).unwrap(), 83, 120),
+        ("three segments", scenes::three_segments(0.3).unwrap(), 86, 120),
     ];
-    for (name, scene, count, tolerance) in scenes {
+    for (name, scene, alike, count) in scenes {
         let mut solid = world(scenes::extruded(&scene, 0.8).unwrap());
         let mut flat = World::new(scene, Options::default()).unwrap();
         for step in 0..count {
             steps(&mut flat, 1);
             steps(&mut solid, 1);
+            let tolerance = if step < alike { 1e-9 } else { 2e-4 };
             for (body, [x, y, angle]) in flat.poses().enumerate() {
                 let [px, py, pz, qw, qx, qy, qz] = place(&solid, body);
                 let (sin, cos) = (0.5 * angle).sin_cos();
