@@ -11,6 +11,7 @@ use crate::{
     formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, FrictionCone, Moving},
     judgement::{CLOSING_AS_SOLVED, Judgement, judge, moving_blocks, proves_fall},
     scene::SceneOf,
+    takedown::Stack,
 };
 use drystone_lcp::{
     Counts, Settings, Solver, Status,
@@ -121,13 +122,6 @@ fn few(assembly: &Assembly) -> usize {
     if assembly.is_wide() { FEW_IF_WIDE } else { FEW }
 }
 
-/// Blocks in space from which on what bears by straight pressure is looked for first: a small part of the pivots' time then, and
-/// where it is found they are saved, with the columns of all generators.
-const LARGE: usize = 500;
-
-/// The same in the plane, where two pivots a block take as long: it is the memory for the columns that is saved.
-const LARGE_IN_PLANE: usize = 20_000;
-
 /// [`check_blocks`] with friction cones of choice, unless it is stopped; None then.
 pub fn check_blocks_while(
     assembly: &Assembly,
@@ -135,7 +129,7 @@ pub fn check_blocks_while(
     cone: FrictionCone,
     go_on: &mut GoOn<'_>,
 ) -> Option<Verdict> {
-    let large = blocks.len() >= if assembly.in_plane() { LARGE_IN_PLANE } else { LARGE };
+    let large = Stack::is_large(assembly.components().len(), blocks.len());
     if large && let Some(stands) = takedown::check(assembly, blocks, Counts::default()) {
         return Some(stands);
     }

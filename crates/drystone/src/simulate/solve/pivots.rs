@@ -14,7 +14,7 @@
 use super::{
     anderson::FixedPoint,
     previous_step::PreviousStep,
-    rest::start_from_interior,
+    rest::{other_start, start_from_interior},
     step_problem::{Motion, StepProblem},
     tolerance::{FRICTION_ACCEPTED, MOST_SOLVES, acceptable},
     warm_start::NextProblem,
@@ -78,7 +78,8 @@ fn load<S: Kinematics>(
     assumed: &[f64],
     time: &mut Duration,
 ) -> Result<usize, Status> {
-    previous.make_solver_at_rest(&state.inverse_mass).map_err(trouble)?;
+    let other = |problem: &_, start: &_| other_start(state, problem, start);
+    previous.make_solver_at_rest(&state.inverse_mass, other).map_err(trouble)?;
     let PreviousStep { problem: before, solver, .. } = previous;
     let problem = step.contacts;
     let next = NextProblem { problem, previous: before.as_ref(), motionless: &state.motionless };

@@ -78,12 +78,19 @@ impl<S: Kinematics> PreviousStep<S> {
         ContactProblem::after(self.problem.as_ref(), contacts, options.cones, gravity)
     }
 
-    /// Makes a solver for a step that was solved without one: the next step differs from it.
-    pub fn make_solver_at_rest(&mut self, inverse_mass: &[S::Velocity]) -> Result<(), LcpError> {
+    /// Makes a solver for a step that was solved without one: the next step differs from it. Where more rows bear than can be
+    /// independent, as in a load takedown, `other` is asked for a solution on fewer: pivots that follow are fewer then.
+    pub fn make_solver_at_rest(
+        &mut self,
+        inverse_mass: &[S::Velocity],
+        other: impl FnOnce(&ContactProblem<S>, &Start) -> Option<Start>,
+    ) -> Result<(), LcpError> {
         let Some((problem, RestSolution { start, q })) = self.problem.as_ref().zip(self.at_rest.take()) else {
             return Ok(());
         };
-        match self.solver.load_solved(problem.problem(inverse_mass, q)?, &start) {
+        let most = inverse_mass.iter().flat_map(|inverse| inverse.as_ref()).filter(|entry| **entry > 0.0).count();
+        let fewer = if start.indices.len() > most { other(problem, &start) } else { None };
+        match self.solver.load_solved(problem.problem(inverse_mass, q)?, &fewer.unwrap_or(start)) {
             // Its rows depend on one another, or nearly: this solve begins from nothing.
             Err(LcpError::Start(_)) => {
                 self.forget();

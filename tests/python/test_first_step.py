@@ -1,0 +1,37 @@
+"""The first step of a world takes about as long as a check: work is counted, not timed."""
+
+from __future__ import annotations
+
+import drystone as ds
+
+
+def test_what_bears_straight_down_takes_no_pivot() -> None:
+    scene = ds.scenes.brick_wall(rows=20, columns=25)
+    world = ds.World(scene)
+    record = world.step()
+    assert all(record.motionless)
+    assert (record.pivots, record.exact) == (0, True)
+    assert record.friction_error < 1e-12
+
+
+def test_the_next_step_goes_on_from_it() -> None:
+    """Impulses straight across the joints are no basis; one is found when something moves."""
+    world = ds.World(ds.scenes.pyramid(20, friction=0.6))
+    first = world.step()
+    assert all(first.motionless)
+    top = world.scene.bodies[-1].name
+    world.apply_force(top, (30, 0))
+    second = world.step()
+    moved = [k for k, still in enumerate(second.motionless) if not still]
+    assert moved == [len(world.scene.bodies) - 1]
+    assert second.rows_reused > 500
+    assert second.exact
+
+
+def test_many_blocks_that_fall_at_once_take_few_pivots() -> None:
+    scene = ds.scenes.brick_wall(5, 5).with_gravity((0, 12, -9.81))
+    record = ds.World(scene).step()
+    assert record.rows > 1000
+    assert sum(record.motionless) == 1
+    assert record.pivots < 300
+    assert record.exact
