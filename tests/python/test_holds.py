@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 import drystone as ds
-from conftest import orderless
+from conftest import ROOT, orderless
 from drystone.cli.app import app
 
 
@@ -64,6 +65,29 @@ def test_an_arch_comes_down_with_one_hand(voussoirs: int) -> None:
     assert max(map(len, plan.holds)) == 1
     more = ds.plan(scene, hold=2)
     verify(more, 2)
+
+
+def test_a_dome_comes_down_ring_by_ring() -> None:
+    """An open ring couples all its voussoirs: pivots alone would make some 60,000 here."""
+    sys.path.insert(0, str(ROOT / "benchmarks"))
+    try:
+        from cold_scenes import dome
+    finally:
+        sys.path.pop(0)
+    scene = dome(4, 0.7)
+    plan = ds.plan(scene, hold=1)
+    assert plan.found
+    assert plan.pivots < 10_000
+    rings = [int(name.split("-")[0]) for name in plan.order]
+    assert rings == sorted(rings, reverse=True)
+    content = json.loads(scene.to_json())
+    for k, held in list(enumerate(plan.holds))[::7]:
+        there, fixed = set(plan.order[k:]), set(held)
+        bodies = [body for body in content["bodies"] if body.get("fixed") or body["name"] in there]
+        part = [
+            {**body, "fixed": bool(body.get("fixed")) or body["name"] in fixed} for body in bodies
+        ]
+        assert ds.check(ds.Scene.from_json(json.dumps({**content, "bodies": part}))).stable
 
 
 def test_a_plank_is_held_until_its_counterweight_is_there() -> None:

@@ -12,12 +12,16 @@
 //! at most `hands` blocks are held at any moment, and a new block is held before an old one is let go. So H' can follow H
 //! when X is put up if `|H + (H' - X)| <= hands`; from any hold on, so can a part of it.
 
+use super::by_interior::by_interior_point;
 use super::collapse::Collapse;
 use super::hitting::next_hitting_set;
 use super::reuse::certified_collapse;
-use super::stability::{PlanError, StabilityTest, TestOutcome, by_accelerations};
-use crate::formulate::{Assembly, BlockRows, BlockSet};
-use drystone_lcp::cone::{ConeSolver, Mark};
+use super::stability::{PlanError, StabilityTest, TestOutcome, Tested, by_accelerations};
+use crate::{
+    equilibrium::{OF_A_CHANGE, effort_of_interior_point},
+    formulate::{Assembly, BlockRows, BlockSet},
+};
+use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 
 /// Most holds tried on one sub-assembly. One hand never comes near; with more the number of sets could explode.
 const MOST_TRIED: usize = 2000;
@@ -35,6 +39,8 @@ struct Level {
     added: usize,
     /// The minimal holds that can be had on this way; one that holds nothing is alone.
     holds: Vec<Vec<usize>>,
+    /// See [`Holding::hard`].
+    hard: bool,
 }
 
 /// Equilibrium as in [`Reuse`](super::Reuse), with hands.
@@ -56,8 +62,10 @@ pub(super) struct Holding<'a> {
     added: usize,
     holds: Vec<Vec<usize>>,
     collapses: Vec<Collapse>,
-    /// How the one tested last falls with nothing held, where accelerations had to tell.
+    /// How the one tested last falls, where that is not told by the solver.
     fell: Option<Collapse>,
+    /// On the way to the one tested last pivots took longer than the interior-point method, which is asked from there on.
+    hard: bool,
     undecided: usize,
 }
 
@@ -66,7 +74,7 @@ impl<'a> Holding<'a> {
     /// are kept.
     pub fn new(assembly: &'a Assembly, hands: usize, most: usize) -> Self {
         let mut solver = assembly.equilibrium_with_hands();
-        let bare = Level { unheld: solver.mark(), added: 0, holds: vec![Vec::new()] };
+        let bare = Level { unheld: solver.mark(), added: 0, holds: vec![Vec::new()], hard: false };
         Self {
             assembly,
             solver,
@@ -81,6 +89,7 @@ impl<'a> Holding<'a> {
             holds: Vec::new(),
             collapses: Vec::new(),
             fell: None,
+            hard: false,
             undecided: 0,
         }
     }
@@ -101,30 +110,54 @@ impl<'a> Holding<'a> {
         self.path.iter().skip(1).map(|level| (level.added, level.holds.as_slice()))
     }
 
-    /// Whether what is there stands with these blocks held; None if that is borderline. Where the solver has no answer the
-    /// accelerations may have one with nothing held; with hands there is none then.
+    /// Whether a sub-assembly stands with these blocks held; None if that is borderline, or not known. If not, `fell` is how it
+    /// falls. Where a solver has no answer the accelerations may have one with nothing held; with hands there is none then.
     fn stands(&mut self, held: &[usize], blocks: &BlockSet) -> Result<Option<bool>, PlanError> {
+        let found = if self.hard { Membership::PivotLimit } else { self.by_pivots(held, blocks) };
+        let by_solver = match self.hard {
+            true => by_interior_point(self.assembly, blocks, held).or_else(|| self.by_new_solver(held, blocks)),
+            false => self.tested(found, &self.solver),
+        };
+        let tested = match by_solver {
+            Some(tested) => tested,
+            None if held.is_empty() => by_accelerations(self.assembly, blocks)?,
+            None => return Ok(None),
+        };
+        self.fell = tested.collapse;
+        Ok((!tested.outcome.borderline).then_some(tested.outcome.stands))
+    }
+
+    /// What the pivots of a new solver say.
+    fn by_new_solver(&self, held: &[usize], blocks: &BlockSet) -> Option<Tested> {
+        let mut solver = self.assembly.equilibrium_with_hands();
+        blocks.iter().for_each(|block| solver.add_rows(self.rows.of(block)));
+        solver.add_rows(&held.iter().map(|&block| self.assembly.hand_row(block)).collect::<Vec<_>>());
+        self.tested(solver.solve(), &solver)
+    }
+
+    fn tested(&self, found: Membership, solver: &ConeSolver) -> Option<Tested> {
+        let falls = found == Membership::Outside;
+        let collapse = falls.then(|| certified_collapse(solver, &self.rows, &self.loads));
+        TestOutcome::of(found, 0).map(|outcome| Tested { outcome, collapse })
+    }
+
+    /// What the solver says, which has the blocks. Where its pivots take longer than the interior-point method all that follows is
+    /// [`Self::hard`].
+    fn by_pivots(&mut self, held: &[usize], blocks: &BlockSet) -> Membership {
         let rows: Vec<usize> = held.iter().map(|&block| self.assembly.hand_row(block)).collect();
         self.solver.add_rows(&rows);
+        let worth = OF_A_CHANGE * effort_of_interior_point(self.assembly, blocks.len());
+        self.solver.limit_effort(self.solver.effort().saturating_add(worth));
         let found = self.solver.decide();
-        let outcome = match TestOutcome::of(found, 0) {
-            Some(outcome) => outcome,
-            None if !held.is_empty() => return Ok(None),
-            None => {
-                let tested = by_accelerations(self.assembly, blocks)?;
-                self.fell = tested.collapse;
-                tested.outcome
-            }
-        };
-        Ok((!outcome.borderline).then_some(outcome.stands))
+        self.hard = found == Membership::PivotLimit && self.solver.is_exhausted();
+        self.solver.limit_effort(usize::MAX);
+        found
     }
 
     /// Finds the minimal holds of a sub-assembly that falls with nothing held, as far as they can be had here. If there are none,
     /// the collapses are a proof that none stands, or empty.
     fn find_holds(&mut self, blocks: &BlockSet) -> Result<(), PlanError> {
-        let fell = self.fell.take();
-        let fell = fell.unwrap_or_else(|| certified_collapse(&self.solver, &self.rows, &self.loads));
-        self.collapses.push(fell);
+        self.collapses.extend(self.fell.take());
         let mut family = vec![self.moving(&[])];
         let mut tried = 0;
         if !self.try_holds(blocks, &mut family, &mut tried, true)? {
@@ -158,7 +191,7 @@ impl<'a> Holding<'a> {
             match stands {
                 Some(true) => self.holds.push(held),
                 Some(false) => {
-                    self.collapses.push(certified_collapse(&self.solver, &self.rows, &self.loads));
+                    self.collapses.extend(self.fell.take());
                     family.push(self.moving(&held));
                 }
                 None => {}
@@ -211,13 +244,16 @@ pub(super) fn hands_needed(before: &[usize], after: &[usize], added: usize) -> u
 impl StabilityTest for Holding<'_> {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         self.go_to_current();
+        self.hard = self.path.last().is_some_and(|level| level.hard);
         self.at_current = false;
         self.added = added;
         self.holds.clear();
         self.collapses.clear();
         self.fell = None;
         let before = self.solver.counts().pivots;
-        self.solver.add_rows(self.rows.of(added));
+        if !self.hard {
+            self.solver.add_rows(self.rows.of(added));
+        }
         let unheld = self.stands(&[], blocks)?;
         if unheld == Some(true) {
             self.holds.push(Vec::new());
@@ -236,9 +272,11 @@ impl StabilityTest for Holding<'_> {
     /// The hands hold on to what they hold.
     fn carry(&mut self, _blocks: &BlockSet, added: usize) -> Result<usize, PlanError> {
         self.go_to_current();
-        self.solver.add_rows(self.rows.of(added));
-        let holds = self.path.last().map_or_else(Vec::new, |before| before.holds.clone());
-        self.path.push(Level { unheld: self.solver.mark(), added, holds });
+        let (holds, hard) = self.path.last().map_or((Vec::new(), false), |before| (before.holds.clone(), before.hard));
+        if !hard {
+            self.solver.add_rows(self.rows.of(added));
+        }
+        self.path.push(Level { unheld: self.solver.mark(), added, holds, hard });
         self.at_current = true;
         Ok(0)
     }
@@ -253,7 +291,7 @@ impl StabilityTest for Holding<'_> {
 
     fn descend(&mut self) {
         let (unheld, holds) = (self.solver.mark(), std::mem::take(&mut self.holds));
-        self.path.push(Level { unheld, added: self.added, holds });
+        self.path.push(Level { unheld, added: self.added, holds, hard: self.hard });
         self.at_current = true;
     }
 

@@ -8,6 +8,7 @@ mod ahead;
 mod balanced;
 #[cfg(test)]
 mod balanced_tests;
+mod by_interior;
 mod candidates;
 mod clear_path;
 mod collapse;
