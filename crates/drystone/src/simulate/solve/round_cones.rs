@@ -27,7 +27,7 @@ const COARSE: f64 = 1e-4;
 
 /// The same for a first step of [`MANY_ROWS`], where pivots do not come to the law either: on 158 stones that fall at once and meet one
 /// another they end at 0.4 % of the speeds, this at 1 %. The next step is exact.
-const COARSE_FROM_REST: f64 = 0.05;
+const COARSE_FROM_REST: f64 = 0.02;
 
 /// A quarter of the blocks are many.
 const MANY: usize = 4;
