@@ -230,7 +230,7 @@ def test_options_that_cannot_be(assembly: Path, options: Any, says: str) -> None
         ("a.xml", "<sdf/>", "neither <mujoco> nor <robot>"),
         ("a.xml", '<!DOCTYPE x [<!ENTITY y "z">]><mujoco/>', "document type"),
         ("a.xml", "<a>" * 200 + "</a>" * 200, "more than 100 deep"),
-        ("a.step", "", "not known by its name"),
+        ("a.iges", "", "not known by its name"),
         ("a.xml", "<mujoco/>", "nothing in it can be taken"),
     ],
 )
