@@ -32,6 +32,10 @@ const COARSE_FROM_REST: f64 = 0.02;
 /// A quarter of the blocks are many.
 const MANY: usize = 4;
 
+/// An impact that is so many times as fast as what gravity gives in a step changes what bears all over a pile: pivots, whose pyramids
+/// have eight rows a contact, take seconds where Newton's method takes milliseconds.
+const IMPACT: f64 = 10.0;
+
 /// A block slower than this share of what gravity gives it in a step comes to rest, or settles by rounding of its place: pivots end that
 /// to the bit.
 const SLOW: f64 = 1e-3;
@@ -45,9 +49,9 @@ const NEWTON_STEPS: usize = 200;
 
 /// Whether a step is solved on round cones. Not in the plane, where pivots are exact, nor for the modes of reuse that are about
 /// pivots. Where few blocks move amid many that rest, pivots with the factor of the step before are ten times faster; so they go on
-/// until [`MANY`] move, and have no factor to go on with after that. Nor where all are [`SLOW`], but for a first step of
-/// [`MANY_ROWS`].
-fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, rows: usize) -> bool {
+/// until [`MANY`] move or one hits another ([`IMPACT`]), and have no factor to go on with after that. Nor where all are [`SLOW`], but
+/// for a first step of [`MANY_ROWS`].
+fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, step: &StepProblem<'_, S>) -> bool {
     if axes::<S>() != 3 || state.options.reuse != Reuse::Full {
         return false;
     }
@@ -55,12 +59,19 @@ fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, r
     let (movable, moving) = (count(&state.inverse_mass), count(&state.velocities));
     let kept = previous.solver.last_problem().is_some() || previous.at_rest.is_some();
     if state.is_at_rest() && !kept {
-        return rows >= MANY_ROWS;
+        return step.contacts.len() >= MANY_ROWS;
     }
     if fast(state, &state.velocities) == 0 {
         return false;
     }
-    (previous.problem.is_some() && !kept) || (moving > 0 && MANY * moving >= movable)
+    let fall = norm(state.scene.gravity().as_ref()) * state.options.dt;
+    let hits = |(k, offset): (usize, &f64)| {
+        let [opening, _] = step.contacts.opening_and_sliding(k, step.free);
+        opening + offset < -IMPACT * fall
+    };
+    (previous.problem.is_some() && !kept)
+        || (moving > 0 && MANY * moving >= movable)
+        || step.offsets.iter().enumerate().any(hits)
 }
 
 /// How many of these velocities are not [`SLOW`].
@@ -77,9 +88,7 @@ pub fn solve_on_round_cones<S: Kinematics>(
 ) -> Option<Motion<S>> {
     let candidates = step.contacts.candidates();
     // Without friction cones are lines, and pivots exact.
-    if !on_round_cones(state, previous, step.contacts.len())
-        || candidates.iter().all(|candidate| candidate.friction == 0.0)
-    {
+    if !on_round_cones(state, previous, step) || candidates.iter().all(|candidate| candidate.friction == 0.0) {
         return None;
     }
     let begun = Instant::now();
