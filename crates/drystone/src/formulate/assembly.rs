@@ -25,6 +25,10 @@ use drystone_lcp::{
 /// Operations to make a generator, or to write it down, about.
 const GENERATOR: usize = 200;
 
+/// The heaviest block over the lightest from which on forces alone do not tell the accelerations: 64-bit numbers leave 1e-11
+/// of a block's own load then, a hundredth of what counts.
+const WIDE: f64 = 1e5;
+
 /// Contacts, generators and loads of a scene.
 #[derive(Debug, Clone)]
 pub struct Assembly {
@@ -39,6 +43,8 @@ pub struct Assembly {
     movable: Vec<usize>,
     /// Mass of the heaviest block, kg: loads count as the mass that would weigh as much.
     heaviest: f64,
+    /// Whether some blocks are [`WIDE`] times as heavy as others.
+    wide: bool,
     generators: Vec<Generator>,
     /// Axes of the cones of the contacts that have friction, and which of them is a contact's.
     pub(super) axes: Vec<Generator>,
@@ -89,6 +95,7 @@ impl Assembly {
             inverse_mass: movable.iter().flat_map(|&body| picked(bodies[body].inverse_mass())).collect(),
             applied: movable.iter().flat_map(load).collect(),
             heaviest: 0.0,
+            wide: false,
             bodies,
             movable,
         };
@@ -121,7 +128,14 @@ impl Assembly {
         self.weighing = Some(length(self.gravity)).filter(|&gravity| gravity > 0.0).unwrap_or(1.0);
         let burden = |&body: &usize| self.bodies[body].mass + self.bodies[body].load_size() / self.weighing;
         self.heaviest = self.movable.iter().map(burden).fold(0.0, f64::max);
+        let masses = || self.movable.iter().map(|&body| self.bodies[body].mass);
+        self.wide = masses().fold(0.0, f64::max) > WIDE * masses().fold(f64::INFINITY, f64::min);
         self
+    }
+
+    /// Whether 64-bit forces may not tell the accelerations: some blocks are far heavier than others.
+    pub(crate) fn is_wide(&self) -> bool {
+        self.wide
     }
 
     /// Adds the generators of the contacts.

@@ -16,10 +16,6 @@ use super::{Assembly, BlockSet, Components, generator::Generator};
 use crate::geometry::length;
 use drystone_lcp::refined::Square;
 
-/// The heaviest block over the lightest from which on forces alone do not tell the accelerations: 64-bit numbers leave 1e-11
-/// of a block's own load then, a hundredth of what counts.
-const WIDE: f64 = 1e5;
-
 /// A force below zero by no more than this share of the weight of the lighter block it acts on is none.
 const NONE: f64 = 1e-10;
 
@@ -51,12 +47,6 @@ impl Assembly {
         let forces: Vec<f64> = (0..self.generators().len()).map(f).collect();
         let motion = blocks.iter().map(|block| (block, self.acceleration(block, |j| forces[j]))).collect();
         Moving { forces, motion }
-    }
-
-    /// Whether 64-bit forces may not tell the accelerations: some blocks are far heavier than others.
-    pub(crate) fn is_wide(&self) -> bool {
-        let masses = || (0..self.blocks()).map(|block| self.inverse_mass(block)[0].recip());
-        masses().fold(0.0, f64::max) > WIDE * masses().fold(f64::INFINITY, f64::min)
     }
 
     /// Where no active set fits, the motion of the first in which nothing pulls, whose contacts may close a little. None if the
