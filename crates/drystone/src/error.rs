@@ -202,7 +202,7 @@ pub enum SceneError {
         tolerance: f64,
     },
     /// A built-in scene that does not exist.
-    #[error("no built-in scene is called \"{name}\"{}; there are {known}", suggestion(.nearest))]
+    #[error("no built-in scene is called \"{name}\"{} (there are {known})", suggestion(.nearest))]
     UnknownScene {
         /// The name asked for.
         name: String,
