@@ -1,24 +1,16 @@
 /** Draws the bodies of a frame. */
-import type { Camera } from "./camera.ts";
 import { State } from "./contract.ts";
 import type { Fade } from "./fade.ts";
 import type { Film } from "./film.ts";
 import { drawNames, drawRing, lineWidth } from "./marks.ts";
 import type { Palette } from "./palette.ts";
+import type { Scene } from "./scene.ts";
 
 export interface BlockStyle {
     colours: Palette;
     names: boolean;
     /** The body under the pointer, or -1. */
     marked: number;
-}
-
-/** What is drawn on, and of what. */
-export interface Scene {
-    context: CanvasRenderingContext2D;
-    film: Film;
-    frame: number;
-    camera: Camera;
 }
 
 /** Bodies from back to front: what is gone, the ground, the structure, what is special. */

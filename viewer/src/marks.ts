@@ -1,9 +1,9 @@
 /** What is drawn on blocks beside their outlines: names, the ring of the next one, line widths. */
-import type { Scene } from "./blocks.ts";
 import type { Camera } from "./camera.ts";
 import { State } from "./contract.ts";
 import type { Film } from "./film.ts";
 import type { Palette } from "./palette.ts";
+import type { Scene } from "./scene.ts";
 
 /** The next block, if smaller than this (pixels), gets a ring, so that it is found. */
 const SMALL = 18;
