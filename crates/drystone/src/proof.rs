@@ -4,7 +4,7 @@ use crate::{
     contact::Contact,
     formulate::{Assembly, BlockSet, Components, ContactForce, FrictionCone},
     geometry::{cross, dot, length, minus},
-    judgement::{CLOSING, ROUNDING, at_rest_under, severity},
+    judgement::{CLOSING, MARGIN, ROUNDING, at_rest_under, severity},
 };
 
 /// Accelerations of blocks under contact forces, ascending.
@@ -83,6 +83,41 @@ pub(crate) fn power_of_fall(
         bound += length(force.force) * (ROUNDING * size + closing.max(0.0));
     }
     if power > 0.0 { power / bound } else { 0.0 }
+}
+
+/// What the forces and the motion of the interior-point method prove.
+pub(crate) struct Proved {
+    /// Accelerations under the forces alone.
+    pub under: Vec<(usize, Components)>,
+    /// The forces hold every block.
+    pub stands: bool,
+    /// The blocks that move, and the power of the motion beside its rounding; none where it stands.
+    pub falling: Vec<(usize, Components)>,
+    pub power: f64,
+}
+
+impl Proved {
+    /// The motion is one in which it falls.
+    pub fn falls(&self) -> bool {
+        !self.falling.is_empty() && self.power > MARGIN
+    }
+}
+
+/// Reads an answer of the interior-point method on `blocks`, of which those that are held are left out; `sure` if its forces may
+/// be taken for those of a structure at rest.
+pub(crate) fn proved(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    motion: &[(usize, Components)],
+    forces: &[ContactForce],
+    cone: FrictionCone,
+    sure: bool,
+) -> Proved {
+    let under = accelerations_under(assembly, blocks, forces);
+    let stands = sure && moving(assembly, &under, forces).is_empty();
+    let falling = if stands { Vec::new() } else { moving(assembly, motion, forces) };
+    let power = if stands { 0.0 } else { power_of_fall(assembly, motion, forces, cone) };
+    Proved { under, stands, falling, power }
 }
 
 /// How fast a contact that has a force closes in a motion, of its fastest point; none that only opens.

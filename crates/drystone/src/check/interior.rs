@@ -4,8 +4,8 @@ use super::{GoOn, Verdict, by_equilibrium, complementarity_while, few};
 use crate::{
     crossover::from_interior,
     formulate::{Assembly, BlockSet, Components, Constrained, ContactForce, FrictionCone},
-    judgement::{MARGIN, severity},
-    proof::{accelerations_under, moving, power_of_fall},
+    judgement::severity,
+    proof::{Proved, proved},
 };
 use drystone_lcp::{Counts, Status, cone::Doubt, interior::End};
 
@@ -58,13 +58,11 @@ pub(super) fn by_interior_point(
 ) -> Option<Verdict> {
     let size = blocks.len();
     let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).solve_while(&mut || go_on(size))?;
-    let under = accelerations_under(assembly, blocks, &forces);
     // Pivots come nearer to the limit, where there are as many.
     let sure = found.end == End::AtRest || assembly.is_round(cone);
-    let stands = sure && moving(assembly, &under, &forces).is_empty();
-    let falling = if stands { Vec::new() } else { moving(assembly, &motion, &forces) };
-    let power = if stands { 0.0 } else { power_of_fall(assembly, &motion, &forces, cone) };
-    let falls = !falling.is_empty() && power > MARGIN;
+    let proved = proved(assembly, blocks, &motion, &forces, cone, sure);
+    let falls = proved.falls();
+    let Proved { under, stands, falling, power } = proved;
     let imbalance = largest(assembly, &under);
     let residual = if stands { imbalance } else { largest(assembly, &difference(&under, &motion)) };
     let accelerations = if stands { under } else { motion };
