@@ -1,9 +1,12 @@
-"""Load factors: known ones, times beside HiGHS, random structures against programs and verdicts.
+"""Load factors: known and published ones, times beside HiGHS, random structures against programs
+and verdicts, and verdicts under gravity in random directions against programs.
 
-    .venv/bin/python benchmarks/limits.py [--random 300] [--highs]
+    .venv/bin/python benchmarks/limits.py [--random 300] [--directions 500] [--highs]
 
 Random structures: `limit` beside HiGHS's maximum and minimum of the factor on the same cones, which
 must agree within 1e-7, and a bisection of `check` (for some of them: it takes 40 verdicts).
+Directions: so many on each of 20 structures in the plane, `check` beside the phase one of HiGHS on
+the same cones. A direction within 1e-7 of where the verdict changes may come out either way.
 `--highs` times HiGHS on the known ones too: the wall of 30 x 30 takes half a minute.
 """
 
@@ -20,20 +23,29 @@ import numpy as np
 import drystone as ds
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "python"))
-from limit_programs import factors, push_of
+from contact_laws import cut_stone
+from limit_programs import Standing, factors, push_of
+from published_walls import PUBLISHED, published_wall
 
 G = 9.81
 BISECTED = 10
-"""Every so manieth random structure is bisected too."""
+"""Every so manieth random structure is bisected too, unless `--bisect` says otherwise."""
+
+STRUCTURES = 20
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--random", type=int, default=300)
+    parser.add_argument("--bisect", type=int, default=BISECTED, metavar="EVERY")
+    parser.add_argument("--directions", type=int, default=500)
     parser.add_argument("--highs", action="store_true")
     arguments = parser.parse_args()
     known(arguments.highs)
-    return 1 if random_structures(arguments.random) else 0
+    published()
+    wrong = random_structures(arguments.random, arguments.bisect)
+    wrong += directions(arguments.directions)
+    return 1 if wrong else 0
 
 
 def known(highs: bool) -> None:
@@ -61,7 +73,56 @@ def known(highs: bool) -> None:
         print(line, flush=True)
 
 
-def random_structures(count: int) -> int:
+def published() -> None:
+    """The six walls of Ferris and Tin-Loi (2001), with the associated flow rule."""
+    for wall in range(1, 7):
+        scene = published_wall(wall)
+        lim = ds.limit(scene, gravity=(G, 0))
+        _, most = factors(scene, push_of(scene, (G, 0)))
+        assert abs(most - lim.factor) < 1e-7, (wall, most)
+        told = f"published {PUBLISHED[wall]:.2f}" if wall in PUBLISHED else ""
+        print(f"wall {wall} of Ferris and Tin-Loi: {len(scene.bodies) - 1:3} blocks ", end="")
+        print(f"{lim.factor:.6f}, HiGHS {most:.6f} {told}", flush=True)
+
+
+def directions(count: int) -> int:
+    """How many verdicts under turned gravity disagree."""
+    scenes = [cut_stone(seed) for seed in range(8)]
+    scenes += [ds.scenes.random_stack(4 + 3 * k, seed=k, friction=0.3 + 0.1 * k) for k in range(6)]
+    scenes += [ds.scenes.arch(n, thickness=0.3, friction=0.7) for n in (5, 9)]
+    scenes += [ds.scenes.wall(4, 3, friction=mu) for mu in (0.4, 0.8)]
+    scenes += [ds.scenes.pyramid(4, friction=0.6), ds.scenes.column(5, friction=1.5)]
+    assert len(scenes) == STRUCTURES
+    wrong = stand = close = 0
+    for index, scene in enumerate(scenes):
+        random = np.random.default_rng(index)
+        program = Standing(scene)
+        # Half of them all around, half where the verdicts change.
+        around = random.uniform(0, 2 * math.pi, count)
+        around[::2] = -0.5 * math.pi + random.normal(0.0, 0.4, len(around[::2]))
+        for angle in around:
+            ours, theirs = verdict(scene, program, angle)
+            stand += ours
+            if ours != theirs:
+                beside = [verdict(scene, program, angle + step) for step in (-1e-7, 1e-7)]
+                near = beside[0] != beside[1] and all(a == b for a, b in beside)
+                close += near
+                wrong += not near
+                print(f"structure {index}, {angle!r}: {ours}, HiGHS {theirs}, near {near}")
+    print(
+        f"{count} directions on each of {STRUCTURES} structures: {stand} stand; "
+        f"{close} too near to tell, {wrong} disagree"
+    )
+    return wrong
+
+
+def verdict(scene: ds.Scene, program: Standing, angle: float) -> tuple[bool, bool]:
+    """Whether it stands under gravity in a direction: ours, and by HiGHS."""
+    gravity = (G * math.cos(angle), G * math.sin(angle))
+    return ds.check(scene.with_gravity(gravity)).stable, program.stands(gravity)
+
+
+def random_structures(count: int, every: int) -> int:
     """How many disagree."""
     wrong, worst, ends, none, infinite, unanswered = 0, 0.0, 0, 0, 0, 0
     for seed in range(count):
@@ -103,7 +164,7 @@ def random_structures(count: int) -> int:
             if bad:
                 wrong += 1
                 print(f"seed {seed}: {lim.status} {lim.bounds}, HiGHS {(least, most)}")
-        if seed % BISECTED == 0 and math.isfinite(lim.factor) and lim.bounds[0] < 0 < lim.factor:
+        if seed % every == 0 and math.isfinite(lim.factor) and lim.bounds[0] < 0 < lim.factor:
             apart = abs(bisected(scene, pull, options, lim.factor) - lim.factor)
             if apart > 1e-7 * max(1.0, lim.factor):
                 wrong += 1

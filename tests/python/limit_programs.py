@@ -21,6 +21,46 @@ def push_of(scene: ds.Scene, gravity: tuple[float, ...]) -> NDArray[np.float64]:
     return pull.ravel()
 
 
+class Standing:
+    """Whether a planar structure stands under gravity in some direction: phase one of HiGHS on the
+    same cones, kept from one direction to the next."""
+
+    def __init__(self, scene: ds.Scene) -> None:
+        g = _core.generators(scene._core, None)
+        self._mass = 1.0 / g.inverse_mass.reshape(-1, 3)[:, 0]
+        rows, columns = len(g.applied), len(g.indptr) - 1
+        self._rows = np.arange(rows, dtype=np.int32)
+        self._highs = QuietHighs()
+        self._highs.setOptionValue("threads", 1)
+        for option in ("primal_feasibility_tolerance", "dual_feasibility_tolerance"):
+            self._highs.setOptionValue(option, 1e-9)
+        none, zero = np.zeros(0, dtype=np.int32), np.zeros(rows)
+        starts = np.zeros(rows, dtype=np.int32)
+        self._highs.addRows(rows, zero, zero, 0, starts, none, np.zeros(0))
+        infinite = np.full(columns, highspy.kHighsInf)
+        where = (g.indptr[:-1].astype(np.int32), g.indices.astype(np.int32))
+        cost = np.zeros(columns)
+        self._highs.addCols(columns, cost, cost, infinite, len(g.data), *where, g.data)
+
+    def stands(self, gravity: tuple[float, float]) -> bool:
+        """Under gravity alone, m/s^2."""
+        load = np.zeros((len(self._mass), 3))
+        load[:, :2] = self._mass[:, None] * np.asarray(gravity)
+        right = -load.ravel() / np.abs(load).max()
+        self._highs.changeRowsBounds(len(right), self._rows, right, right)
+        known = (highspy.HighsModelStatus.kOptimal, highspy.HighsModelStatus.kInfeasible)
+        for presolve in ("choose", "off", "on"):  # it does not always come to an end
+            self._highs.setOptionValue("presolve", presolve)
+            self._highs.run()
+            status = self._highs.getModelStatus()
+            if status in known:
+                break
+            self._highs.clearSolver()
+        self._highs.setOptionValue("presolve", "choose")
+        assert status in known, status
+        return bool(status == known[0])
+
+
 def factors(
     scene: ds.Scene, push: NDArray[np.float64], cones: tuple[int, str] | None = None
 ) -> tuple[float, float]:

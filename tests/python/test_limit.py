@@ -15,7 +15,8 @@ import pytest
 
 import drystone as ds
 from conftest import Ran
-from limit_programs import factors, push_of
+from limit_programs import Standing, factors, push_of
+from published_walls import PUBLISHED, published_wall
 
 Cli = Callable[..., Ran]
 
@@ -67,6 +68,16 @@ def test_published_and_known_factors() -> None:
     assert ds.limit(arch, gravity=(G, 0)).factor == pytest.approx(0.285646, abs=5e-7)
     wall = ds.scenes.wall(10, 10, friction=0.5)
     assert ds.limit(wall, gravity=(G, 0)).factor == pytest.approx(0.495746, abs=5e-7)
+
+
+@pytest.mark.parametrize("wall", range(1, 7))
+def test_the_walls_of_ferris_and_tin_loi(wall: int) -> None:
+    """Associated flow: what was published, and HiGHS on the same cones."""
+    scene = published_wall(wall)
+    lim = ds.limit(scene, gravity=(G, 0))
+    if wall in PUBLISHED:
+        assert lim.factor == pytest.approx(PUBLISHED[wall], abs=5e-3)
+    assert lim.bounds == pytest.approx(factors(scene, push_of(scene, (G, 0))), abs=1e-7)
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.6])
@@ -209,6 +220,17 @@ def test_random_structures_against_a_linear_program_and_verdicts(seed: int) -> N
                 continue
             t = end + sign * step
             assert ds.check(loaded(scene, t, pull), **options).stable == stands
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_verdicts_under_gravity_in_all_directions_beside_a_linear_program(seed: int) -> None:
+    scene = ds.scenes.random_stack(4 + 2 * seed, seed=seed, friction=0.3 + 0.2 * seed)
+    program, random = Standing(scene), np.random.default_rng(seed)
+    angles = -0.5 * math.pi + random.normal(0.0, 0.4, 50)
+    directions = [(G * math.cos(angle), G * math.sin(angle)) for angle in angles]
+    verdicts = [ds.check(scene.with_gravity(gravity)).stable for gravity in directions]
+    assert verdicts == [program.stands(gravity) for gravity in directions]
+    assert 0 < sum(verdicts) < len(verdicts)
 
 
 def test_pivots_and_the_interior_point_find_the_same() -> None:

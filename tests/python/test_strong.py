@@ -155,6 +155,36 @@ def test_a_budget_is_kept() -> None:
         ds.check(scene, strong=True, strong_budget=0)
 
 
+def with_gaps(scene: ds.Scene, random: np.random.Generator, gap: float = 1e-8) -> ds.Scene:
+    """Every corner of a block moved towards its centroid by up to a gap, m."""
+    apart = ds.Scene(friction=scene.friction, gravity=scene.gravity)
+    for body in scene.bodies:
+        corners = np.asarray(body.vertices)
+        if not body.fixed:
+            inward = np.asarray(body.centroid) - corners
+            inward /= np.linalg.norm(inward, axis=1)[:, None]
+            corners = corners + gap * random.uniform(0.1, 1.0, (len(corners), 1)) * inward
+        apart.add_polygon(corners, name=body.name, fixed=body.fixed, friction=body.friction)
+    return apart
+
+
+def test_joints_that_close_first_drop_what_need_not_stand_and_nothing_else() -> None:
+    must = needing_friction()
+    scenes = {True: [must["arch of 5"], must["wall"]], False: [between_walls(10.0)]}
+    for seed in range(40):
+        scene = cut_stone(seed)
+        verdict = ds.check(scene, strong=True)
+        if verdict.stable and (not verdict.must_stand or ds.margin(scene).acceleration > 1e-3):
+            scenes[bool(verdict.must_stand)].append(scene)
+    for stands, some in scenes.items():
+        assert len(some) >= 2
+        for run, scene in enumerate(some):
+            apart = with_gaps(scene, np.random.default_rng(run))
+            moved = ds.simulate(apart, steps=240)
+            way = np.abs(moved.poses[-1] - moved.poses[0])[:, :2].max()
+            assert (way < 1e-6) == stands, (stands, run, way)
+
+
 def test_parts_and_what_was_not_asked() -> None:
     scene = between_walls(10.0)
     scene.add_polygon([(20, 0), (21, 0), (21, 1), (20, 1)], name="aside")
