@@ -1,0 +1,213 @@
+"""The reference structures of compas_dem, beside its own back end RBE: resultants and times.
+
+    .venv/bin/pip install compas_dem==0.6.0 compas_cra==0.8.0
+    .venv/bin/python benchmarks/dem.py [--csv FILE]
+
+The four models of `scripts/DEM_Analysis_References` in its repository, under their own weight with
+friction .5: two blocks, three blocks, an arch of 30 voussoirs, a barrel vault. drystone reads the
+same `BlockModel` (`drystone.imports.load`) and finds contacts by itself; a resultant is the sum of
+the forces between two blocks.
+
+Forces are unique only where the structure is statically determinate. A component of a resultant
+counts as unique if the least and the greatest that the friction cones allow (pyramids around them,
+by HiGHS) are within 1e-6 of the weight; these must be equal on both sides, to what RBE's solver
+leaves open. Of structures of more than 300 contacts, whose programs take minutes, none is looked
+at.
+
+Times are of the processor, the least of a few: RBE's `Problem.solve` with its interfaces known,
+ours `check` with contacts found, and again with the forces of least norm, which RBE's are too, in
+another norm.
+"""
+
+from __future__ import annotations
+
+import threads  # noqa: F401  (before anything that loads NumPy)
+
+# isort: split
+
+import argparse
+import contextlib
+import csv
+import io
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import compas.geometry as cg
+import highspy
+import numpy as np
+from compas_dem.material import Stone
+from compas_dem.models import BlockModel
+from compas_dem.problem import Problem, Solver
+from compas_dem.templates import ArchTemplate, BarrelVaultTemplate
+from scipy.sparse import csc_matrix
+
+import drystone as ds
+from drystone import _core, imports
+from drystone.statics import QuietHighs
+
+FRICTION = 0.5
+UNIQUE = 1e-6
+"""Range of a component, of the weight of all."""
+
+SAME = 1e-5
+"""How far resultants may be apart, of the weight of all: RBE's solver stops there."""
+
+MOST = 300
+"""Contacts of a structure whose resultants are looked at."""
+
+REPEATS = 5
+
+COLUMNS = (
+    *("structure", "blocks", "contacts", "resultants", "unique components", "apart"),
+    *("RBE, s", "check, s", "with forces, s", "RBE / check", "RBE / with forces"),
+)
+
+
+def _box(corner: tuple[float, float, float], width: float, height: float) -> cg.Box:
+    x, y, z = corner
+    return cg.Box.from_corner_corner_height([x, y, z], [x + width, y + 1, z], height)
+
+
+def _of_boxes(boxes: list[cg.Box]) -> BlockModel:
+    """The lowest is the support."""
+    model = BlockModel.from_boxes(boxes)
+    lowest = min(model.elements(), key=lambda block: block.point[2])
+    lowest.is_support = True
+    return model
+
+
+def two_blocks() -> BlockModel:
+    return _of_boxes([_box((0, 0, -0.1), 1, 0.1), _box((0, 0, 0), 1, 1), _box((0, 0, 1), 1, 1)])
+
+
+def three_blocks() -> BlockModel:
+    feet = [_box((0, 0, 0), 1, 1), _box((1.1, 0, 0), 1, 1)]
+    return _of_boxes([_box((0, 0, -0.1), 2.1, 0.1), *feet, _box((0.55, 0, 1), 1, 1)])
+
+
+def arch() -> BlockModel:
+    template = ArchTemplate(rise=4.393, span=21.213, thickness=0.5, depth=3.0, n=30)
+    model = BlockModel.from_template(template)
+    for block in model.elements():
+        block.is_support = block.graphnode in (0, 29)
+    return model
+
+
+def barrel_vault() -> BlockModel:
+    template = BarrelVaultTemplate(length=3, span=7, rise=0.1, vou_length=13)
+    model = BlockModel.from_barrelvault(template)
+    model.compute_contacts()
+    for node in model.graph.nodes_where(degree=1):
+        model.graph.node_element(node).is_support = True
+    return model
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--csv", type=Path)
+    arguments = parser.parse_args()
+    rows, wrong = [], 0
+    for build in (two_blocks, three_blocks, arch, barrel_vault):
+        row, apart = compared(build)
+        wrong += apart > SAME
+        rows.append(row)
+        print(dict(zip(COLUMNS, row, strict=True)), flush=True)
+    if arguments.csv:
+        with arguments.csv.open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows([COLUMNS, *rows])
+    return 1 if wrong else 0
+
+
+def compared(build: Callable[[], BlockModel]) -> tuple[list[Any], float]:
+    """A row, and how far unique components are apart."""
+    model = build()
+    model.compute_contacts()
+    stone = Stone.from_predefined_material("LimeStone")
+    stone.density = 2000
+    model.add_material(stone)
+    model.assign_material(stone, elements=list(model.elements()))
+    problem = Problem(model)
+    problem.set_contact_model("MohrCoulomb", mu=FRICTION)
+    problem.set_solver(Solver.RBE())
+    with contextlib.redirect_stdout(io.StringIO()):
+        results, rbe = least(lambda: problem.solve(verbose=False))
+    scene = imports.load(model, friction=FRICTION).scene
+    contacts = len(scene.contacts)
+    verdict, alone = least(lambda: ds.check(scene))
+    assert verdict.stable
+    forces, with_forces = least(lambda: list(ds.check(scene).forces))
+    ours: dict[tuple[int, int], Any] = {}
+    for force in forces:
+        pair = int(force.a), int(force.b)
+        ours[pair] = ours.get(pair, 0.0) + np.asarray(force.force)
+    weight = sum(9.81 * body.mass for body in scene.bodies if not body.fixed)
+    pairs = [pair for pair in ours if pair in set(results.edges()) and contacts <= MOST]
+    unique, apart = 0, 0.0
+    for pair, spread in zip(pairs, ranges(scene, pairs), strict=True):
+        for axis in np.flatnonzero(spread <= UNIQUE * weight):
+            unique += 1
+            theirs = results.resultant_global(pair)[axis]
+            apart = max(apart, abs(theirs - ours[pair][axis]) / weight)
+    blocks = len(list(model.elements()))
+    times = [f"{value:.2g}" for value in (rbe, alone, with_forces)]
+    ratios = [f"{rbe / value:.0f}" for value in (alone, with_forces)]
+    told = [build.__name__, blocks, contacts, len(pairs), unique, f"{apart:.1e}"]
+    return [*told, *times, *ratios], apart
+
+
+def least(ask: Callable[[], Any]) -> tuple[Any, float]:
+    """An answer, and the least processor time."""
+    answer, best = None, float("inf")
+    for _ in range(REPEATS):
+        begun = time.process_time()
+        answer = ask()
+        best = min(best, time.process_time() - begun)
+    return answer, best
+
+
+def ranges(scene: ds.Scene, pairs: list[tuple[int, int]]) -> list[np.ndarray]:
+    """Of each resultant the range of its components, N, over all forces that hold the structure."""
+    g = _core.generators(scene._core, (8, "circumscribed"))
+    unit = np.abs(g.applied).max()
+    columns = len(g.indptr) - 1
+    highs = QuietHighs()
+    highs.setOptionValue("threads", 1)
+    rows = len(g.applied)
+    none = np.zeros(0, dtype=np.int32)
+    right = -g.applied / unit
+    highs.addRows(rows, right, right, 0, np.zeros(rows, dtype=np.int32), none, np.zeros(0))
+    infinite = np.full(columns, highspy.kHighsInf)
+    where = (g.indptr[:-1].astype(np.int32), g.indices.astype(np.int32))
+    zero = np.zeros(columns)
+    highs.addCols(columns, zero, zero, infinite, len(g.data), *where, g.data)
+    matrix = csc_matrix((g.data, g.indices, g.indptr), shape=(rows, columns))
+    place = {int(name): 6 * index for index, name in enumerate(g.names)}
+    contacts = [(int(contact.a), int(contact.b)) for contact in scene.contacts]
+    of = np.array([contacts[contact] for contact in g.contact])
+    found = []
+    for a, b in pairs:
+        mine = np.flatnonzero((of == (a, b)).all(axis=1))
+        sign, first = (1.0, place[b]) if b in place else (-1.0, place[a])
+        ends = []
+        for axis in range(3):
+            cost = np.zeros(columns)
+            cost[mine] = sign * matrix[first + axis, mine].toarray().ravel()
+            ends.append([_least(highs, way * cost) for way in (1.0, -1.0)])
+        found.append(-unit * np.sum(ends, axis=1))
+    return found
+
+
+def _least(highs: QuietHighs, cost: np.ndarray) -> float:
+    """The least cost of forces that hold the structure; minus infinity without one."""
+    highs.changeColsCost(len(cost), np.arange(len(cost), dtype=np.int32), cost)
+    highs.run()
+    if highs.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+        return -np.inf
+    return float(highs.getInfo().objective_function_value)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
