@@ -105,11 +105,11 @@ impl<const B: usize> BodyMatrix<B> {
         for (side, weighted) in weighted.iter().enumerate() {
             let Some(body) = point.body(side) else { continue };
             let first = self.place[body] * B;
-            for column in 0..B {
+            let block = block(&point.jacobian[side], weighted);
+            for (column, entries) in block.iter().enumerate() {
                 let end = self.starts[first + column + 1];
-                for (row, value) in self.values[end - 1 - column..end].iter_mut().enumerate() {
-                    *value += entry(&point.jacobian[side], row, weighted, column);
-                }
+                let own = &mut self.values[end - 1 - column..end];
+                own.iter_mut().zip(entries).for_each(|(value, entry)| *value += entry);
             }
         }
         let first_pair = index * two_of(N).count();
@@ -117,11 +117,11 @@ impl<const B: usize> BodyMatrix<B> {
             let (Some(a), Some(b)) = (point.body(one), point.body(other)) else { continue };
             let (upper, lower) = if self.place[a] < self.place[b] { (one, other) } else { (other, one) };
             let first = self.place[a].max(self.place[b]) * B;
-            for column in 0..B {
-                let start = self.starts[first + column] + self.between[first_pair + pair] * B;
-                for (row, value) in self.values[start..start + B].iter_mut().enumerate() {
-                    *value += entry(&point.jacobian[upper], row, &weighted[lower], column);
-                }
+            let above = self.between[first_pair + pair] * B;
+            let block = block(&point.jacobian[upper], &weighted[lower]);
+            for (column, entries) in block.iter().enumerate() {
+                let own = &mut self.values[self.starts[first + column] + above..][..B];
+                own.iter_mut().zip(entries).for_each(|(value, entry)| *value += entry);
             }
         }
     }
@@ -186,14 +186,15 @@ fn weighted<const B: usize, const D: usize>(jacobian: &[[f64; B]; D], weight: &[
     product
 }
 
-/// Row `row` of `J'` times column `column` of a product.
-fn entry<const B: usize, const D: usize>(
-    jacobian: &[[f64; B]; D],
-    row: usize,
-    product: &[[f64; B]; D],
-    column: usize,
-) -> f64 {
-    (0..D).map(|k| jacobian[k][row] * product[k][column]).sum()
+/// `J'` times a product, by columns.
+fn block<const B: usize, const D: usize>(jacobian: &[[f64; B]; D], product: &[[f64; B]; D]) -> [[f64; B]; B] {
+    let mut block = [[0.0; B]; B];
+    for k in 0..D {
+        for column in 0..B {
+            (0..B).for_each(|row| block[column][row] += jacobian[k][row] * product[k][column]);
+        }
+    }
+    block
 }
 
 /// Pairs of so many sides.
