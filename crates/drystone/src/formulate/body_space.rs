@@ -122,6 +122,15 @@ impl Assembly {
 }
 
 impl BodySpace<'_> {
+    /// The same without points between bodies that are fixed or held: only layers between them would feel these.
+    pub fn of_moving(mut self) -> Self {
+        let moves = |point: &Point| point.bodies.iter().any(Option::is_some);
+        let mut moving = self.problem.points.iter().map(moves);
+        self.points.retain(|_| moving.next().unwrap_or(false));
+        self.problem.points.retain(moves);
+        self
+    }
+
     /// The same under a push, whose factor is sought.
     pub fn under(mut self, push: &Push) -> Self {
         let size = self.problem.size;
@@ -136,6 +145,20 @@ impl BodySpace<'_> {
 
     pub fn solve(&self) -> Constrained {
         self.solve_while(&mut || true).expect("nobody stops it")
+    }
+
+    /// Forces that hold the blocks, near some that are positive along all generators; zeros where nothing is known. None if that leads
+    /// nowhere, which proves nothing. With pyramids only.
+    pub fn rest_near(&self, magnitudes: &[f64]) -> Option<Constrained> {
+        let near: Vec<f64> = self.columns().map(|generator| magnitudes[generator]).collect();
+        Some(self.constrained(self.problem.rest_near(&near)?))
+    }
+
+    /// The force of each generator of the assembly in a solution; with pyramids only.
+    pub fn magnitudes(&self, found: &Found) -> Vec<f64> {
+        let mut magnitudes = vec![0.0; self.assembly.generators().len()];
+        self.columns().zip(&found.forces).for_each(|(generator, force)| magnitudes[generator] = *force);
+        magnitudes
     }
 
     /// [`Self::solve`] as long as `go_on`, asked before every iteration, says so; None if stopped.

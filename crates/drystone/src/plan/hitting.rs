@@ -11,7 +11,7 @@ use crate::formulate::BlockSet;
 /// `preference` are chosen first. None if there is no other. What `may` does not allow is left out, with all that has more
 /// blocks.
 pub(super) fn next_hitting_set(
-    family: &[BlockSet],
+    family: &[&BlockSet],
     most: usize,
     preference: &[usize],
     known: &[Vec<usize>],
@@ -19,7 +19,7 @@ pub(super) fn next_hitting_set(
 ) -> Option<Vec<usize>> {
     fn extend(
         chosen: &mut Vec<usize>,
-        family: &[BlockSet],
+        family: &[&BlockSet],
         most: usize,
         preference: &[usize],
         known: &[Vec<usize>],
@@ -50,7 +50,7 @@ pub(super) fn next_hitting_set(
 }
 
 /// Whether every block alone meets some set.
-fn is_minimal(chosen: &[usize], family: &[BlockSet]) -> bool {
+fn is_minimal(chosen: &[usize], family: &[&BlockSet]) -> bool {
     let meets = |block: usize, set: &BlockSet| {
         set.contains(block) && !chosen.iter().any(|&other| other != block && set.contains(other))
     };
@@ -76,8 +76,8 @@ mod tests {
     }
 
     fn all_that(family: &[BlockSet], most: usize, may: impl Fn(&[usize]) -> bool) -> Vec<Vec<usize>> {
-        let mut known = Vec::new();
-        while let Some(set) = next_hitting_set(family, most, &[7, 6, 5, 4, 3, 2, 1, 0], &known, &may) {
+        let (mut known, family) = (Vec::new(), family.iter().collect::<Vec<_>>());
+        while let Some(set) = next_hitting_set(&family, most, &[7, 6, 5, 4, 3, 2, 1, 0], &known, &may) {
             known.push(set);
         }
         known

@@ -12,11 +12,12 @@
 //! at most `hands` blocks are held at any moment, and a new block is held before an old one is let go. So H' can follow H
 //! when X is put up if `|H + (H' - X)| <= hands`; from any hold on, so can a part of it.
 
-use super::by_interior::by_interior_point;
+use super::by_interior::{Forces, Put, by_interior_point, falls_among};
 use super::collapse::Collapse;
 use super::hitting::next_hitting_set;
 use super::reuse::certified_collapse;
 use super::stability::{PlanError, StabilityTest, TestOutcome, Tested, by_accelerations};
+use super::touching::Touching;
 use crate::{
     equilibrium::{OF_A_CHANGE, effort_of_interior_point},
     formulate::{Assembly, BlockRows, BlockSet},
@@ -39,14 +40,29 @@ struct Level {
     added: usize,
     /// The minimal holds that can be had on this way; one that holds nothing is alone.
     holds: Vec<Vec<usize>>,
+    /// It stands under each of these.
+    proved: bool,
+    /// How it falls with nothing held, as far as that is known.
+    falls: Vec<Fall>,
+    /// Forces that hold it under some of its holds, or held the one before.
+    forces: Vec<(Vec<usize>, Forces)>,
     /// See [`Holding::hard`].
     hard: bool,
+}
+
+/// A collapse of a sub-assembly that is held or not.
+#[derive(Debug, Clone)]
+struct Fall {
+    collapse: Collapse,
+    /// The blocks that move in it; those that are held do not, but for rounding.
+    moving: BlockSet,
 }
 
 /// Equilibrium as in [`Reuse`](super::Reuse), with hands.
 #[derive(Debug)]
 pub(super) struct Holding<'a> {
     assembly: &'a Assembly,
+    touching: Touching,
     solver: ConeSolver,
     rows: BlockRows,
     loads: Vec<f64>,
@@ -61,6 +77,8 @@ pub(super) struct Holding<'a> {
     /// Of the sub-assembly tested last.
     added: usize,
     holds: Vec<Vec<usize>>,
+    falls: Vec<Fall>,
+    forces: Vec<(Vec<usize>, Forces)>,
     collapses: Vec<Collapse>,
     /// How the one tested last falls, where that is not told by the solver.
     fell: Option<Collapse>,
@@ -74,9 +92,11 @@ impl<'a> Holding<'a> {
     /// are kept.
     pub fn new(assembly: &'a Assembly, hands: usize, most: usize) -> Self {
         let mut solver = assembly.equilibrium_with_hands();
-        let bare = Level { unheld: solver.mark(), added: 0, holds: vec![Vec::new()], hard: false };
+        let (unheld, holds) = (solver.mark(), vec![Vec::new()]);
+        let bare = Level { unheld, added: 0, holds, proved: true, falls: Vec::new(), forces: Vec::new(), hard: false };
         Self {
             assembly,
+            touching: Touching::new(assembly),
             solver,
             rows: assembly.equilibrium_rows(),
             loads: (0..assembly.blocks()).flat_map(|block| assembly.applied(block)).copied().collect(),
@@ -87,6 +107,8 @@ impl<'a> Holding<'a> {
             at_current: true,
             added: 0,
             holds: Vec::new(),
+            falls: Vec::new(),
+            forces: Vec::new(),
             collapses: Vec::new(),
             fell: None,
             hard: false,
@@ -115,7 +137,7 @@ impl<'a> Holding<'a> {
     fn stands(&mut self, held: &[usize], blocks: &BlockSet) -> Result<Option<bool>, PlanError> {
         let found = if self.hard { Membership::PivotLimit } else { self.by_pivots(held, blocks) };
         let by_solver = match self.hard {
-            true => by_interior_point(self.assembly, blocks, held).or_else(|| self.by_new_solver(held, blocks)),
+            true => self.by_interior_point(held, blocks).or_else(|| self.by_new_solver(held, blocks)),
             false => self.tested(found, &self.solver),
         };
         let tested = match by_solver {
@@ -125,6 +147,17 @@ impl<'a> Holding<'a> {
         };
         self.fell = tested.collapse;
         Ok((!tested.outcome.borderline).then_some(tested.outcome.stands))
+    }
+
+    /// What the interior-point method says.
+    fn by_interior_point(&mut self, held: &[usize], blocks: &BlockSet) -> Option<Tested> {
+        let put = Put { blocks, held, added: self.added };
+        let known = self.path.last().into_iter().flat_map(|level| &level.forces).chain(&self.forces);
+        let let_go = |before: &[usize]| before.iter().filter(|block| !held.contains(block)).count();
+        let before = known.min_by_key(|(before, _)| let_go(before)).map(|(_, forces)| forces);
+        let answer = by_interior_point(self.assembly, &self.touching, put, before)?;
+        self.forces.extend(answer.forces.map(|forces| (held.to_vec(), forces)));
+        Some(answer.tested)
     }
 
     /// What the pivots of a new solver say.
@@ -157,14 +190,16 @@ impl<'a> Holding<'a> {
     /// Finds the minimal holds of a sub-assembly that falls with nothing held, as far as they can be had here. If there are none,
     /// the collapses are a proof that none stands, or empty.
     fn find_holds(&mut self, blocks: &BlockSet) -> Result<(), PlanError> {
-        self.collapses.extend(self.fell.take());
-        let mut family = vec![self.moving(&[])];
         let mut tried = 0;
-        if !self.try_holds(blocks, &mut family, &mut tried, true)? {
-            self.collapses.clear();
-        } else if self.holds.is_empty() && !self.try_holds(blocks, &mut family, &mut tried, false)? {
-            self.holds.clear();
-            self.collapses.clear();
+        let mut decided = self.try_holds(blocks, &mut tried, true)?;
+        if decided && self.holds.is_empty() {
+            decided = self.try_holds(blocks, &mut tried, false)?;
+            if !decided {
+                self.holds.clear();
+            }
+        }
+        if decided && self.holds.is_empty() {
+            self.collapses = self.falls.iter().map(|fall| fall.collapse.clone()).collect();
         }
         Ok(())
     }
@@ -172,28 +207,24 @@ impl<'a> Holding<'a> {
     /// Tries one hold after the other that stops the collapses of the family, those that can be had here or any. False if
     /// the collapses do not tell which holds there are: one is borderline, there are too many to try, or there is one that cannot
     /// be had here.
-    fn try_holds(
-        &mut self,
-        blocks: &BlockSet,
-        family: &mut Vec<BlockSet>,
-        tried: &mut usize,
-        here: bool,
-    ) -> Result<bool, PlanError> {
+    fn try_holds(&mut self, blocks: &BlockSet, tried: &mut usize, here: bool) -> Result<bool, PlanError> {
         let unheld = self.solver.mark();
         let preference: Vec<usize> = self.newest_first().collect();
         loop {
             let may = |held: &[usize]| !here || self.can_follow(held);
-            let Some(held) = next_hitting_set(family, self.hands, &preference, &self.holds, &may) else {
+            let family: Vec<&BlockSet> = self.falls.iter().map(|fall| &fall.moving).collect();
+            let Some(held) = next_hitting_set(&family, self.hands, &preference, &self.holds, &may) else {
                 return Ok(true);
             };
-            let stands = if *tried == MOST_TRIED { None } else { self.stands(&held, blocks)? };
+            let stands = match *tried {
+                MOST_TRIED => None,
+                _ if self.stood(&held) => Some(true),
+                _ => self.stands(&held, blocks)?,
+            };
             *tried += 1;
             match stands {
                 Some(true) => self.holds.push(held),
-                Some(false) => {
-                    self.collapses.extend(self.fell.take());
-                    family.push(self.moving(&held));
-                }
+                Some(false) => self.learn(&held),
                 None => {}
             }
             self.solver.roll_back(unheld);
@@ -212,12 +243,28 @@ impl<'a> Holding<'a> {
         [self.added].into_iter().chain(self.path.iter().skip(1).rev().map(|level| level.added))
     }
 
-    /// The blocks that move in the last collapse; those that are held do not, but for rounding.
-    fn moving(&self, held: &[usize]) -> BlockSet {
+    /// Keeps how it has just been found to fall with these blocks held, in place of collapses that move more blocks.
+    fn learn(&mut self, held: &[usize]) {
+        let Some(collapse) = self.fell.take() else { return };
         let mut moving = BlockSet::empty(self.assembly.blocks());
-        let blocks = self.collapses.last().into_iter().flat_map(Collapse::moving);
-        blocks.filter(|(block, _)| !held.contains(block)).for_each(|&(block, _)| moving.insert(block));
-        moving
+        let free = collapse.moving().iter().filter(|(block, _)| !held.contains(block));
+        free.for_each(|&(block, _)| moving.insert(block));
+        self.falls.retain(|known| !moving.iter().all(|block| known.moving.contains(block)));
+        self.falls.push(Fall { collapse, moving });
+    }
+
+    /// The collapses of the current sub-assembly that go on with `added` there: it touches nothing that moves (Lemma 1).
+    fn falls_still(&self, added: usize) -> Vec<Fall> {
+        let touched = self.touching.neighbours(added);
+        let goes_on = |fall: &&Fall| !touched.iter().any(|&block| fall.moving.contains(block));
+        self.path.last().into_iter().flat_map(|level| &level.falls).filter(goes_on).cloned().collect()
+    }
+
+    /// Whether it stands with these blocks held because the one before did, and the new one is held: that is a fixed body more.
+    fn stood(&self, held: &[usize]) -> bool {
+        let stands = |before: &Vec<usize>| before.iter().all(|block| held.contains(block));
+        let before = self.path.last().filter(|level| level.proved && held.contains(&self.added));
+        before.is_some_and(|level| level.holds.iter().any(stands))
     }
 
     /// Brings the solver to the current sub-assembly.
@@ -241,6 +288,15 @@ pub(super) fn hands_needed(before: &[usize], after: &[usize], added: usize) -> u
     before.len() + after.iter().filter(|&block| *block != added && !before.contains(block)).count()
 }
 
+#[cfg(test)]
+impl Holding<'_> {
+    /// The same where the interior-point method is asked from the first test on.
+    pub fn always_hard(mut self) -> Self {
+        self.path.iter_mut().for_each(|level| level.hard = true);
+        self
+    }
+}
+
 impl StabilityTest for Holding<'_> {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         self.go_to_current();
@@ -254,14 +310,19 @@ impl StabilityTest for Holding<'_> {
         if !self.hard {
             self.solver.add_rows(self.rows.of(added));
         }
-        let unheld = self.stands(&[], blocks)?;
+        self.falls = self.falls_still(added);
+        self.forces.clear();
+        if self.hard {
+            let put = Put { blocks, held: &[], added };
+            self.fell = falls_among(self.assembly, &self.touching, put, &[added]);
+            self.learn(&[]);
+        }
+        let unheld = if self.falls.is_empty() { self.stands(&[], blocks)? } else { Some(false) };
         if unheld == Some(true) {
             self.holds.push(Vec::new());
         } else if unheld == Some(false) {
+            self.learn(&[]);
             self.find_holds(blocks)?;
-            if !self.holds.is_empty() {
-                self.collapses.clear();
-            }
         }
         let stands = !self.holds.is_empty();
         self.undecided += usize::from(!stands && self.collapses.is_empty());
@@ -276,7 +337,9 @@ impl StabilityTest for Holding<'_> {
         if !hard {
             self.solver.add_rows(self.rows.of(added));
         }
-        self.path.push(Level { unheld: self.solver.mark(), added, holds, hard });
+        let falls = self.falls_still(added);
+        let forces = self.path.last().map_or_else(Vec::new, |before| before.forces.clone());
+        self.path.push(Level { unheld: self.solver.mark(), added, holds, proved: false, falls, forces, hard });
         self.at_current = true;
         Ok(0)
     }
@@ -291,7 +354,12 @@ impl StabilityTest for Holding<'_> {
 
     fn descend(&mut self) {
         let (unheld, holds) = (self.solver.mark(), std::mem::take(&mut self.holds));
-        self.path.push(Level { unheld, added: self.added, holds, hard: self.hard });
+        let falls = std::mem::take(&mut self.falls);
+        let mut forces = std::mem::take(&mut self.forces);
+        if let Some(before) = self.path.last().filter(|_| forces.is_empty()) {
+            forces.clone_from(&before.forces);
+        }
+        self.path.push(Level { unheld, added: self.added, holds, proved: true, falls, forces, hard: self.hard });
         self.at_current = true;
     }
 

@@ -9,6 +9,8 @@ mod balanced;
 #[cfg(test)]
 mod balanced_tests;
 mod by_interior;
+#[cfg(test)]
+mod by_interior_tests;
 mod candidates;
 mod clear_path;
 mod collapse;

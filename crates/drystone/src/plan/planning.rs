@@ -265,7 +265,7 @@ fn search_under(
     };
     let mut found = match &locked {
         Some(_) => check_alone(assembly, &clock, Outcome::Locked),
-        None => search_unheld(assembly, &touching, paths, test, &mut clock)?,
+        None => search_unheld(assembly, &touching, paths, test, hands, &mut clock)?,
     };
     if found.outcome == Outcome::NoOrder && hands > 0 {
         search_with_hands(assembly, &touching, paths, hands, &mut clock, &mut found)?;
@@ -357,6 +357,7 @@ fn search_unheld(
     touching: &Touching,
     paths: Option<&Paths<'_>>,
     test: &mut dyn StabilityTest,
+    hands: usize,
     clock: &mut Clock<'_>,
 ) -> Result<Found, PlanError> {
     let blocks = assembly.blocks();
@@ -380,7 +381,8 @@ fn search_unheld(
             (reached, records, shortcuts) = (Vec::new(), Vec::new(), 0);
             Vec::new()
         }
-        Outcome::NoOrder => {
+        // With hands the search goes on from here.
+        Outcome::NoOrder if hands == 0 => {
             let mut again = test.anew().unwrap_or_else(|| Box::new(Reuse::new(assembly)));
             until_stopped(clock.run(|| dead_end(again.as_mut(), touching, paths, &mut reached)))?
         }

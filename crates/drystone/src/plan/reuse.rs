@@ -1,13 +1,15 @@
 //! The stability test of the planner that keeps the forces of the stable parent on a basis of the generators.
 
+use super::by_interior::{Forces, Put, by_interior_point};
 use super::collapse::Collapse;
 use super::stability::{PlanError, StabilityTest, TestOutcome, Tested, by_accelerations};
+use super::touching::Touching;
 use crate::{
     equilibrium::{OF_A_CHANGE, effort_of_interior_point, put_up},
     formulate::{Assembly, BlockRows, BlockSet},
     takedown::Takedown,
 };
-use drystone_lcp::cone::{ConeSolver, Mark};
+use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 
 /// Every test starts from the forces of the stable sub-assembly without the block just added (Theorem 1).
 ///
@@ -32,8 +34,8 @@ pub struct Reuse<'a> {
     marks: Vec<Option<Mark>>,
     /// The solver is in the last of these states.
     at_current: bool,
-    /// How the last one tested falls, where the solver had no answer and the accelerations had.
-    by_accelerations: Option<Tested>,
+    /// How the last one tested falls, where the solver had no answer and the accelerations had, or the interior-point method.
+    otherwise: Option<Tested>,
     /// What the last test was about, and whether the solver was asked.
     tested: Option<(usize, bool)>,
     takedown: Option<Takedown>,
@@ -41,6 +43,15 @@ pub struct Reuse<'a> {
     bearing: BlockSet,
     /// Effort of the solver from which on the lemma is asked first.
     worth: usize,
+    /// On the last one tested pivots took longer than the interior-point method.
+    hard: bool,
+    /// They did on the sub-assembly of so many blocks: that method is asked of all that are built on it.
+    hard_from: Option<usize>,
+    /// From the first time on that it is asked.
+    touching: Option<Touching>,
+    /// Forces that it found for the last one tested, and for those of so many blocks on the way.
+    found: Option<Forces>,
+    forces: Vec<(usize, Forces)>,
 }
 
 impl<'a> Reuse<'a> {
@@ -58,11 +69,16 @@ impl<'a> Reuse<'a> {
             marks: vec![Some(solver.mark())],
             solver,
             at_current: true,
-            by_accelerations: None,
+            otherwise: None,
             tested: None,
             takedown: None,
             bearing: BlockSet::empty(blocks),
             worth: OF_A_CHANGE * effort_of_interior_point(assembly, blocks),
+            hard: false,
+            hard_from: None,
+            touching: None,
+            found: None,
+            forces: Vec::new(),
         }
     }
 
@@ -70,6 +86,13 @@ impl<'a> Reuse<'a> {
     #[cfg(test)]
     pub fn with_worth(mut self, worth: usize) -> Self {
         self.worth = worth;
+        self
+    }
+
+    /// The same where the interior-point method is asked from the first test on.
+    #[cfg(test)]
+    pub fn always_hard(mut self) -> Self {
+        self.hard_from = Some(0);
         self
     }
 
@@ -91,6 +114,29 @@ impl<'a> Reuse<'a> {
         }
         let bears = |takedown: &Takedown| takedown.bears(added, |below| self.bearing.contains(below));
         self.takedown.as_ref().is_some_and(bears)
+    }
+
+    /// What pivots say of `added` on the current sub-assembly, as long as they take no more than so many times what the interior-point
+    /// method does.
+    fn by_pivots(&mut self, blocks: &BlockSet, added: usize, times: usize) -> Membership {
+        let most = effort_of_interior_point(self.assembly, blocks.len()).saturating_mul(times);
+        self.go_to_current();
+        self.solver.limit_effort(self.solver.effort().saturating_add(most));
+        self.solver.add_rows(self.rows.of(added));
+        // The last test before the structure is complete brings all forces up to date, and checks them.
+        let last = blocks.len() + 1 == self.blocks;
+        let found = if last { self.solver.solve() } else { self.solver.decide() };
+        self.solver.limit_effort(usize::MAX);
+        found
+    }
+
+    /// What the interior-point method says.
+    fn by_interior_point(&mut self, blocks: &BlockSet, added: usize) -> Option<Tested> {
+        let touching = self.touching.get_or_insert_with(|| Touching::new(self.assembly));
+        let (put, before) = (Put { blocks, held: &[], added }, self.forces.last().map(|(_, forces)| forces));
+        let answer = by_interior_point(self.assembly, touching, put, before)?;
+        self.found = answer.forces;
+        Some(answer.tested)
     }
 
     /// Brings the solver to the current sub-assembly.
@@ -128,23 +174,32 @@ impl StabilityTest for Reuse<'_> {
     fn test(&mut self, blocks: &BlockSet, added: usize) -> Result<TestOutcome, PlanError> {
         let carried = self.carries(added);
         self.tested = Some((added, !carried));
+        self.hard = false;
+        self.found = None;
         if carried {
             return Ok(TestOutcome { stands: true, borderline: false, pivots: 0 });
         }
         let before = self.solver.counts().pivots;
-        self.go_to_current();
-        self.solver.add_rows(self.rows.of(added));
-        // The last test before the structure is complete brings all forces up to date, and checks them.
-        let last = blocks.len() + 1 == self.blocks;
-        let found = if last { self.solver.solve() } else { self.solver.decide() };
+        self.hard = self.hard_from.is_some();
+        let mut found = if self.hard { Membership::PivotLimit } else { self.by_pivots(blocks, added, OF_A_CHANGE) };
+        if found == Membership::PivotLimit {
+            self.hard = true;
+            if let Some(tested) = self.by_interior_point(blocks, added) {
+                self.tested = Some((added, false));
+                let outcome = TestOutcome { pivots: self.solver.counts().pivots - before, ..tested.outcome };
+                self.otherwise = Some(tested);
+                return Ok(outcome);
+            }
+            found = self.by_pivots(blocks, added, usize::MAX);
+        }
         let pivots = self.solver.counts().pivots - before;
         if let Some(outcome) = TestOutcome::of(found, pivots) {
-            self.by_accelerations = None;
+            self.otherwise = None;
             return Ok(outcome);
         }
         let tested = by_accelerations(self.assembly, blocks)?;
         let outcome = TestOutcome { pivots: tested.outcome.pivots + pivots, ..tested.outcome };
-        self.by_accelerations = Some(tested);
+        self.otherwise = Some(tested);
         Ok(outcome)
     }
 
@@ -153,7 +208,7 @@ impl StabilityTest for Reuse<'_> {
     }
 
     fn collapse(&self) -> Option<Collapse> {
-        match &self.by_accelerations {
+        match &self.otherwise {
             Some(tested) => tested.collapse.clone(),
             None => Some(certified_collapse(&self.solver, &self.rows, &self.loads)),
         }
@@ -164,6 +219,10 @@ impl StabilityTest for Reuse<'_> {
         self.placed.push(added);
         self.marks.push(asked.then(|| self.solver.mark()));
         self.at_current = asked;
+        if self.hard {
+            self.hard_from.get_or_insert(self.placed.len());
+        }
+        self.forces.extend(self.found.take().map(|forces| (self.placed.len(), forces)));
         let bears = |takedown: &Takedown| takedown.bears(added, |below| self.bearing.contains(below));
         if self.takedown.as_ref().is_some_and(bears) {
             self.bearing.insert(added);
@@ -173,6 +232,8 @@ impl StabilityTest for Reuse<'_> {
     fn backtrack(&mut self) {
         self.marks.pop();
         self.placed.pop().into_iter().for_each(|block| self.bearing.remove(block));
+        self.forces.pop_if(|(blocks, _)| *blocks > self.placed.len());
+        self.hard_from = self.hard_from.filter(|&from| from <= self.placed.len());
         self.at_current = false;
     }
 }

@@ -130,6 +130,14 @@ pub(super) struct Tested {
     pub collapse: Option<Collapse>,
 }
 
+impl Tested {
+    /// It falls so.
+    pub fn falling(collapse: Collapse) -> Self {
+        let outcome = TestOutcome { stands: false, borderline: false, pivots: 0 };
+        Self { outcome, collapse: Some(collapse) }
+    }
+}
+
 /// What accelerations say of a sub-assembly where an equilibrium solver has no answer (as in `check.rs`).
 pub(super) fn by_accelerations(assembly: &Assembly, blocks: &BlockSet) -> Result<Tested, PlanError> {
     let mut solver = solver_for(assembly);

@@ -50,7 +50,7 @@ const START: f64 = 10.0;
 /// Residuals in the problem's own scale: rounding of some ten terms of the largest force, or of one.
 const RESIDUAL: f64 = 1e-14;
 /// What the forces may leave of a body's own load: a hundredth of what counts as rest.
-const REST: f64 = 1e-11;
+pub(super) const REST: f64 = 1e-11;
 /// Iterations are some 10 to 25; ten times as many say that there is no progress.
 const MOST: usize = 200;
 /// An iteration that leaves more than this share of gap and residual is none, and how many of them in a row are the end.

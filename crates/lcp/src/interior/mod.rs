@@ -29,6 +29,7 @@ mod layers;
 mod matrix;
 mod method;
 mod problem;
+mod resting;
 mod scaled;
 mod scaling;
 mod solving;

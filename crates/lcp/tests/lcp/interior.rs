@@ -164,6 +164,41 @@ fn a_basis_of_what_is_at_rest_leaves_the_equilibrium_solver_no_pivot() {
     assert!(rested > 20, "{rested} of 80 are at rest");
 }
 
+/// Forces of a problem hold one with other loads, changed in few steps, or are not found: never others.
+#[test]
+fn forces_nearby_hold_bodies_under_other_loads() {
+    let mut near = 0;
+    for seed in 0..40 {
+        let mut problem = random(seed, if seed % 2 == 0 { 3 } else { 6 }, 6, 60, None);
+        let held = problem.solve();
+        if held.end != End::AtRest {
+            continue;
+        }
+        problem.load.iter_mut().step_by(3).for_each(|load| *load *= 1.2);
+        let Some(found) = problem.rest_near(&held.forces) else { continue };
+        assert!(found.iterations < 7 && found.forces.iter().all(|&f| f > 0.0));
+        for (left, load) in imbalance(&problem, &found.forces).iter().zip(&problem.load) {
+            assert!(left.abs() <= 1e-9 * (1.0 + load.abs()), "{left} of {load}");
+        }
+        near += 1;
+    }
+    assert!(near > 5, "{near}");
+    assert!(random(1, 6, 3, 20, Some(0.5)).rest_near(&[1.0; 60]).is_none());
+    let mut apart = random(1, 3, 3, 10, None);
+    apart.points.clear();
+    assert!(apart.rest_near(&[]).is_none());
+}
+
+/// What forces on pyramids leave of the loads.
+fn imbalance(problem: &Gauss, forces: &[f64]) -> Vec<f64> {
+    let (starts, rows, values) = generators(problem);
+    let mut left = problem.load.clone();
+    for (j, force) in forces.iter().enumerate() {
+        (starts[j]..starts[j + 1]).for_each(|k| left[rows[k]] += force * values[k]);
+    }
+    left
+}
+
 #[test]
 fn nothing_to_touch_falls_freely_and_no_body_is_no_trouble() {
     let free = Gauss { size: 3, inverse_mass: vec![1.0; 3], load: vec![0.0, -9.81, 0.0], ..Gauss::default() };
