@@ -120,6 +120,13 @@ def test_other_settings_and_other_content_are_other_questions(tmp_path: Path) ->
         {"clear_path": True},
         {"clear_path": True, "directions": [(1, 0), (0, 1)]},
         {"clear_path": True, "directions": [(0, 1), (1, 0)]},
+        {"clear_path": True, "moves": 2},
+        {"clear_path": True, "together": 2},
+        {"clear_path": True, "obstacles": ds.scenes.column(2)},
+        {"margin": 0.05},
+        {"order": "robust"},
+        {"facets": 16},
+        {"cone": "circumscribed"},
         {"node_limit": 1},
     )
     for settings in asked:
@@ -153,6 +160,10 @@ def test_a_scene_of_another_dimension_than_the_directions(tmp_path: Path) -> Non
     many = ds.plan_many(scenes, output=tmp_path, clear_path=True, directions=[(0, 1)])
     assert [answer.state for answer in many] == ["planned", "bad_input"]
     assert "plan scenes in the plane and in space apart" in many["space"].error
+    inside = ds.scenes.column(3)
+    many = ds.plan_many(scenes, clear_path=True, obstacles=inside.extruded())
+    assert [answer.state for answer in many] == ["bad_input", "planned"]
+    assert "obstacles have 3 dimensions, and this scene 2" in many["flat"].error
 
 
 DAMAGE: dict[str, Callable[[bytes], bytes]] = {
@@ -246,6 +257,22 @@ def test_what_breaks_is_tried_again(
         ({"directions": [(0, 1)]}, ValueError, "give clear_path=True with them"),
         ({"directions": [(0, 1), (0, 0, 1)], "clear_path": True}, ValueError, "must all have two"),
         ({"directions": [(0, 0)], "clear_path": True}, ds.DrystoneError, "directions"),
+        ({"moves": 2}, ValueError, "give clear_path=True"),
+        ({"moves": 3, "clear_path": True}, ValueError, "moves is 3"),
+        ({"obstacles": ds.scenes.column(2)}, ValueError, "give clear_path=True"),
+        ({"obstacles": 3, "clear_path": True}, TypeError, "Scene"),
+        ({"margin": -1.0}, ValueError, "margin is -1"),
+        ({"order": "best"}, ValueError, "unknown order 'best'"),
+        ({"facets": 2}, ds.DrystoneError, "facets"),
+        (
+            {
+                "directions": [(0, 1)],
+                "obstacles": ds.scenes.wall(2, 2).extruded(),
+                "clear_path": True,
+            },
+            ValueError,
+            "not of the same dimension",
+        ),
         ({"workers": 0}, ValueError, "workers is 0"),
         ({"retries": -1}, ValueError, "retries is -1"),
         ({"address": "auto"}, ValueError, "address 'auto' is for engine='ray'"),
@@ -386,6 +413,18 @@ def test_of_a_folder_with_holds(cli: Cli, folder: Path, tmp_path: Path) -> None:
     assert record["settings"]["clear_path"] is True
     assert any(record["plan"]["holds"])
     assert len(record["plan"]["directions"]) == len(record["plan"]["order"])
+
+
+def test_of_a_folder_with_every_option(cli: Cli, folder: Path, tmp_path: Path) -> None:
+    table = tmp_path / "table.json"
+    ds.scenes.column(1).save(table)
+    options = ("--clear-path", "--moves", 2, "--together", 2, "--obstacles", table)
+    ran = cli("plan", folder, "-o", tmp_path / "out", *options, "--facets", 12)
+    assert ran.err == ""
+    record = json.loads(next((tmp_path / "out").glob("arch-*.json")).read_text())
+    asked = {name: record["settings"][name] for name in ("moves", "together", "facets")}
+    assert asked == {"moves": 2, "together": 2, "facets": 12}
+    assert len(record["settings"]["obstacles"]) == 64
 
 
 @pytest.mark.parametrize(

@@ -217,12 +217,6 @@ def plan(
 
         if threads is not None:
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
-        if margin or order != "any":
-            raise InputError(f"{scene} is a folder: --margin and --order are for one scene")
-        if moves > 1 or together > 1 or obstacles is not None:
-            raise InputError(
-                f"{scene} is a folder: --moves, --together and --obstacles are for one scene"
-            )
         where = engine or "threads"
         limits = (node_limit, time_limit)
         return plan_many.run(
@@ -234,8 +228,16 @@ def plan(
             workers,
             address,
             as_json,
+            shortcuts=shortcuts,
             hold=hold,
             clear_path=clear_path,
+            margin=margin,
+            order=order,
+            moves=moves,
+            together=together,
+            obstacles=obstacles,
+            facets=facets,
+            cone=cone,
         )
     if engine is not None or workers is not None or address is not None:
         raise InputError(f"{scene} is no folder: --engine, --workers and --address are for folders")

@@ -9,13 +9,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone.cli.errors import BAD_INPUT, INTERRUPTED, InputError
-from drystone.cli.inputs import reporting_files
+from drystone.cli.inputs import load_scene, reporting_files
 from drystone.cli.output import console
+from drystone.common.cones import Pyramid
 from drystone.common.text import MOST_ROWS, shorten, shown
 from drystone.many import ManyPlans, plan_many
 from drystone.many.engines import EngineName
 from drystone.many.progress import ManyProgress
-from drystone.planning.search import StabilityTest
+from drystone.planning.search import OrderOfPlan, StabilityTest
 from drystone.report.tables import cut, table
 
 if TYPE_CHECKING:
@@ -35,14 +36,25 @@ def run(
     address: str | None,
     as_json: bool,
     *,
-    hold: int = 0,
-    clear_path: bool = False,
+    shortcuts: bool,
+    hold: int,
+    clear_path: bool,
+    margin: float,
+    order: OrderOfPlan,
+    moves: int,
+    together: int,
+    obstacles: str | None,
+    facets: int,
+    cone: Pyramid,
 ) -> int:
     """0 if every scene has an order, 1 if some has none, 2 if some could not be planned."""
     if output is None:
         raise InputError(f"{folder} is a folder: say with -o into which folder its plans go")
     if output.resolve() == folder.resolve():
         raise InputError(f"{output}: plans go into another folder than the scenes")
+    if not clear_path and (moves > 1 or together > 1 or obstacles is not None):
+        raise InputError("--moves, --together and --obstacles are for --clear-path")
+    in_the_way = None if obstacles is None else load_scene(obstacles)
     try:
         # Ray tells of lost machines on standard output, which is for the answer.
         with reporting_files(), redirect_stdout(sys.stderr), ManyProgress() as progress:
@@ -53,8 +65,16 @@ def run(
                 test=test,
                 node_limit=node_limit,
                 time_limit=time_limit,
+                shortcuts=shortcuts,
                 hold=hold,
                 clear_path=clear_path,
+                margin=margin,
+                order=order,
+                moves=moves,
+                together=together,
+                obstacles=in_the_way,
+                facets=facets,
+                cone=cone,
                 workers=workers,
                 address=address,
                 progress=progress,

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 
+from drystone.common.cones import FACETS, INSCRIBED, Pyramid
 from drystone.many import engines
 from drystone.many.answers import ManyPlans, ScenePlan
 from drystone.many.engine import EngineError
@@ -18,7 +19,9 @@ from drystone.many.engines import EngineName
 from drystone.many.jobs import Job, Scenes, jobs_of
 from drystone.many.store import Store
 from drystone.many.work import Settings
-from drystone.planning.search import StabilityTest
+from drystone.planning.search import OrderOfPlan, StabilityTest
+from drystone.scene import Scene
+from drystone.scene.scene import scene_of
 
 __all__ = ["ENGINES", "EngineError", "ManyPlans", "Progress", "ScenePlan", "plan_many"]
 
@@ -41,6 +44,13 @@ def plan_many(
     hold: int = 0,
     clear_path: bool = False,
     directions: Sequence[Sequence[float]] | None = None,
+    margin: float = 0.0,
+    order: OrderOfPlan = "any",
+    moves: int = 1,
+    together: int = 1,
+    obstacles: Scene | None = None,
+    facets: int = FACETS,
+    cone: Pyramid = INSCRIBED,
     workers: int | None = None,
     address: str | None = None,
     retries: int = 3,
@@ -65,9 +75,9 @@ def plan_many(
     With `output`, a folder, every answer is written as soon as it is there: one file for each
     scene, named by the scene's name and content, and a line in `index.jsonl`. A file is written
     whole or not at all. A later call with the same folder plans only what is not there for the same
-    content and the same settings (`test`, `node_limit`, `time_limit`, `shortcuts`, `hold`,
-    `clear_path`, `directions` and the version of drystone). Without `output` answers are kept in
-    memory only.
+    content and the same settings: all that `plan` takes but `threads` and `progress`, and the
+    version of drystone. `obstacles` are in the way of every scene. Without `output` answers are
+    kept in memory only.
 
     A scene that cannot be read is recorded as such, and the others go on. Ctrl-C ends the call
     early: the answer then holds what is finished, and its `interrupted` is True.
@@ -87,8 +97,22 @@ def plan_many(
     """
     if directions is not None and not clear_path:
         raise ValueError("directions are for straight ways out: give clear_path=True with them")
-    ways = tuple(tuple(map(float, way)) for way in directions or ())
-    settings = Settings(test, node_limit, time_limit, shortcuts, hold, clear_path, ways).checked()
+    settings = Settings(
+        test,
+        node_limit,
+        time_limit,
+        shortcuts,
+        hold,
+        clear_path,
+        tuple(tuple(map(float, way)) for way in directions or ()),
+        margin,
+        order,
+        moves,
+        together,
+        None if obstacles is None else scene_of(obstacles).to_json(),
+        facets,
+        cone,
+    ).checked()
     jobs, total = jobs_of(scenes)
     run = engines.of(engine, workers=workers, address=address, retries=retries)
     answers: dict[str, ScenePlan | None] = {}  # in the order of the scenes; None: under way

@@ -5,6 +5,7 @@ Both are JSON, so that a worker shares nothing with the caller but this function
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import socket
@@ -12,8 +13,9 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from drystone import _core
+from drystone.common.cones import FACETS, INSCRIBED, Pyramid
 from drystone.planning.answer import Plan
-from drystone.planning.search import Progress, StabilityTest, plan
+from drystone.planning.search import OrderOfPlan, Progress, StabilityTest, plan
 from drystone.scene import Scene
 
 
@@ -28,6 +30,14 @@ class Settings:
     hold: int = 0
     clear_path: bool = False
     directions: tuple[tuple[float, ...], ...] = ()
+    margin: float = 0.0
+    order: OrderOfPlan = "any"
+    moves: int = 1
+    together: int = 1
+    obstacles: str | None = None
+    """The text of a scene."""
+    facets: int = FACETS
+    cone: Pyramid = INSCRIBED
     drystone: str = _core.__version__
     """Another version may find another order."""
 
@@ -38,17 +48,34 @@ class Settings:
             raise ValueError(
                 "directions must all have two numbers, for scenes in the plane, or three, in space"
             )
+        dimensions = self._dimensions()
+        if len(set(dimensions.values())) > 1:
+            raise ValueError("directions and obstacles are not of the same dimension")
         flat = Scene._of(_core.Scene.built_in("column", {"n": 1}))
-        self.plan(flat.extruded() if lengths == {3} else flat, None)
+        for scene in (flat, flat.extruded()):
+            if all(dimension == scene.dimension for dimension in dimensions.values()):
+                self.plan(scene, None)
         return self
+
+    def _dimensions(self) -> dict[str, int]:
+        """Of what is for scenes in the plane, or in space, only."""
+        ways = {"directions": len(self.directions[0])} if self.directions else {}
+        obstacles = self._obstacles()
+        return ways if obstacles is None else {**ways, "obstacles": obstacles.dimension}
+
+    def _obstacles(self) -> Scene | None:
+        if self.obstacles is None:
+            return None
+        return Scene._of(_core.Scene.from_json(self.obstacles, "obstacles"))
 
     def plan(self, scene: Scene, progress: Progress | None) -> Plan:
         """The plan of `scene` under these settings."""
-        if self.directions and len(self.directions[0]) != scene.dimension:
-            raise _core.SceneError(
-                f"directions have {len(self.directions[0])} numbers each, and this scene "
-                f"{scene.dimension} dimensions: plan scenes in the plane and in space apart"
-            )
+        for what, dimension in self._dimensions().items():
+            if dimension != scene.dimension:
+                raise _core.SceneError(
+                    f"{what} have {dimension} dimensions, and this scene {scene.dimension}: "
+                    "plan scenes in the plane and in space apart"
+                )
         return plan(
             scene,
             self.test,
@@ -60,11 +87,23 @@ class Settings:
             self.hold,
             self.clear_path,
             self.directions or None,
+            margin=self.margin,
+            order=self.order,
+            moves=self.moves,
+            together=self.together,
+            obstacles=self._obstacles(),
+            facets=self.facets,
+            cone=self.cone,
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """In types that JSON knows."""
-        return {**asdict(self), "directions": [list(way) for way in self.directions]}
+        """In types that JSON knows; of the obstacles the SHA-256 of their scene's text."""
+        obstacles = self.obstacles
+        return {
+            **asdict(self),
+            "directions": [list(way) for way in self.directions],
+            "obstacles": None if obstacles is None else _sha256(obstacles),
+        }
 
 
 def plan_text(text: str, source: str, settings: Settings, progress: Progress | None = None) -> str:
@@ -84,6 +123,10 @@ def plan_text(text: str, source: str, settings: Settings, progress: Progress | N
     except Exception as error:
         answer = failure("failed", error)
     return json.dumps({**answer, "worker": f"{socket.gethostname()}:{os.getpid()}"})
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _same_version(settings: Settings) -> None:
