@@ -47,6 +47,25 @@ def test_the_named_eigenvalue_is_one_that_m_has() -> None:
     assert tally.judged == {Judgement.RIGHT: tally.answers}, tally.remarks
 
 
+@pytest.mark.parametrize(
+    ("name", "seed"),
+    [
+        ("near columns, infeasible", 731),
+        ("near columns, infeasible", 114),
+        ("units 1e-8 to 1e8, infeasible", 916),
+        ("units 1e-8 to 1e8, infeasible", 1062),
+        ("huge or tiny", 110),
+        ("huge or tiny", 983),
+    ],
+)
+def test_a_certificate_of_nearly_equal_columns_is_found(name: str, seed: int) -> None:
+    """Its M'y is rounding only in 32 digits, or only within the null space of M."""
+    family = next(family for family in FAMILIES if family.name == name)
+    tally = random_lcps.single_problems(family, range(seed, seed + 1))
+    assert tally.said["no_solution"] == tally.answers >= 3
+    assert tally.judged == {Judgement.RIGHT: tally.answers}, tally.remarks
+
+
 TWO = Problem(np.array([[1.0, -1.0], [-1.0, 1.0]]), np.array([-1.0, -1.0]))
 
 

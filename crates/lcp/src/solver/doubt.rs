@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     certificate::Scaled, error::LcpError, interrupt::apart, pivot::lemke_on, problem::Problem, scaling::is_far,
-    settings::Settings, solution::Status,
+    solution::Status,
 };
 use faer::{Mat, Side, linalg::solvers::SelfAdjointEigen};
 
@@ -22,9 +22,9 @@ const COARSE_FEASIBILITY: f64 = 0.2;
 /// (`settings::PROGRESS`, ten times).
 const LITTLE: f64 = 1e-6;
 /// Rows up to which dense matrices are worth their n^3 operations.
-const LARGEST_DENSE: usize = 600;
+pub(super) const LARGEST_DENSE: usize = 600;
 /// An eigenvalue of at most this (unit diagonal) for each row is rounding.
-const EIGENVALUE_ROUNDING: f64 = 1e-15;
+pub(super) const EIGENVALUE_ROUNDING: f64 = 1e-15;
 
 impl Solver {
     pub(super) fn repair(&mut self, repair: Repair) {
@@ -57,7 +57,7 @@ impl Solver {
             return Some(Status::Solved);
         }
         let z = self.z.clone();
-        if self.take_certificate(&z) || self.certify_in_null_space().unwrap_or(false) {
+        if self.take_certificate(&z) || self.certify_among_all().unwrap_or(false) {
             return Some(Status::NoSolution);
         }
         if self.residual * z_size <= LITTLE * self.q_size {
@@ -74,37 +74,6 @@ impl Solver {
         let y = certificate.y.iter().zip(&self.scaling.d).map(|(y, d)| y * d).collect();
         *(if certificate.is_clear { &mut self.ray } else { &mut self.doubtful.ray }) = Some(y);
         certificate.is_clear
-    }
-
-    /// Looks for a certificate among all vectors that M maps to zero, N the basis of these: the projection y of -q onto the cone
-    /// of those that are not negative. By Moreau's theorem `q'y = -y'y`, so there is none if y = 0. It is `y = N N' (x - q)`
-    /// where x >= 0 and y >= 0 are complementary: a problem with the matrix of a projection, whatever M is.
-    pub(super) fn certify_in_null_space(&mut self) -> Result<bool, LcpError> {
-        let rows = self.rows();
-        let Some(null) = self.null_space(&rows).filter(|null| null.ncols() > 0) else { return Ok(false) };
-        let q = Mat::from_fn(rows.len(), 1, |i, _| self.load.scaled[rows[i]]);
-        let projection = &null * null.transpose();
-        let image = &projection * &q;
-        let entries: Vec<f64> = (0..rows.len())
-            .flat_map(|i| (0..rows.len()).map(move |j| (i.min(j), i.max(j))))
-            .map(|(i, j)| projection[(i, j)])
-            .collect();
-        let problem = Problem::from_dense(&entries, (0..rows.len()).map(|i| -image[(i, 0)]).collect())?;
-        let found = lemke_on(&problem, &Settings { pivot_limit: None, ..self.settings.clone() })?;
-        let mut y = vec![0.0; self.z.len()];
-        rows.iter().zip(found.w.iter().zip(&found.z)).filter(|(_, (w, z))| w > z).for_each(|(&i, (&w, _))| y[i] = w);
-        Ok(self.take_certificate(&y))
-    }
-
-    /// An orthonormal basis of the vectors that M maps to zero but for rounding. None if it is too large to look.
-    fn null_space(&self, rows: &[usize]) -> Option<Mat<f64>> {
-        if rows.len() > LARGEST_DENSE {
-            return None;
-        }
-        let eigen = self.eigen(rows)?;
-        let rounding = EIGENVALUE_ROUNDING * rows.len() as f64;
-        let null: Vec<usize> = (0..rows.len()).filter(|&k| eigen.S().column_vector()[k].abs() <= rounding).collect();
-        Some(Mat::from_fn(rows.len(), null.len(), |i, k| eigen.U()[(i, null[k])]))
     }
 
     /// No attempt had an answer. Lemke's method may have one; else it is what was doubtful, or M has a negative eigenvalue.
@@ -165,7 +134,7 @@ impl Solver {
     }
 
     /// Eigenvalues, ascending, and eigenvectors of the rows present.
-    fn eigen(&self, rows: &[usize]) -> Option<SelfAdjointEigen<f64>> {
+    pub(super) fn eigen(&self, rows: &[usize]) -> Option<SelfAdjointEigen<f64>> {
         let n = rows.len();
         let block = Mat::from_fn(n, n, |i, j| self.m.get(rows[i], rows[j]));
         apart(10 * n * n * n, move || block.self_adjoint_eigen(Side::Lower)).ok()

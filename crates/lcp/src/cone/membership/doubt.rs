@@ -86,7 +86,7 @@ impl ConeSolver {
     }
 
     /// Decides in double-double arithmetic, from the basis as it is.
-    pub(super) fn decide_extended(&mut self) -> Membership {
+    pub(crate) fn decide_extended(&mut self) -> Membership {
         self.bearing.behind = false;
         if self.limits.only_in_64_bits {
             return Membership::NumericalTrouble;
