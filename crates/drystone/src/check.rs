@@ -1,12 +1,13 @@
 //! Does it stand, with which contact forces, and if not, what falls?
 
+mod collapse;
 mod interior;
 mod takedown;
 
 use crate::{
     contact::Contact,
     crossover::or_from_interior,
-    equilibrium::{Effort, accelerations_along, collapse_motion, equilibrium_of, equilibrium_while},
+    equilibrium::{Effort, equilibrium_of, equilibrium_while},
     error::SceneError,
     formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, FrictionCone, Moving},
     judgement::{CLOSING_AS_SOLVED, Judgement, judge, moving_blocks, proves_fall},
@@ -203,7 +204,11 @@ fn complementarity_while(
         let proved = status == Status::Solved
             && !found.falling.is_empty()
             && proves_fall(assembly, blocks, &moving, CLOSING_AS_SOLVED);
-        if proved { Verdict { stable: false, ..found } } else { by_collapse(assembly, found, equilibrium) }
+        if proved {
+            Verdict { stable: false, ..found }
+        } else {
+            collapse::verdict(assembly, blocks, found, equilibrium)
+        }
     };
     let judgement = match (fell, status) {
         (Some(equilibrium), _) => return Some(fallen(found, equilibrium)),
@@ -231,24 +236,6 @@ fn held(assembly: &Assembly, blocks: &BlockSet, equilibrium: &ConeSolver, counts
     let doubt = equilibrium.doubt();
     let status = if doubt.is_some() { Status::Borderline } else { Status::Solved };
     Verdict { status, stable: doubt.is_none(), falling: Vec::new(), doubt, ..held }
-}
-
-/// The verdict on what an equilibrium solver has found to fall, where the complementarity problem does not tell how: by the
-/// solver's own motion.
-fn by_collapse(assembly: &Assembly, found: Verdict, equilibrium: &ConeSolver) -> Verdict {
-    let accelerations = accelerations_along(assembly, &collapse_motion(assembly, equilibrium));
-    let of = |&body: &usize| {
-        let moving = accelerations.iter().find(|(block, _)| assembly.body_index(*block) == body);
-        moving.map_or(Acceleration::default(), |&(block, value)| assembly.in_world(block, value))
-    };
-    Verdict {
-        status: Status::Solved,
-        stable: false,
-        accelerations: found.checked.iter().map(of).collect(),
-        falling: accelerations.iter().map(|&(block, _)| assembly.body_index(block)).collect(),
-        virtual_motion: true,
-        ..found
-    }
 }
 
 /// Reads a verdict from the magnitudes of the generators and the accelerations under them.

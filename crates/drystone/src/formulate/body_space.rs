@@ -166,6 +166,19 @@ impl BodySpace<'_> {
         Some(self.constrained(self.problem.solve_while(go_on)?))
     }
 
+    /// The motion nearest to one (of the same blocks) among those in which no contact closes: Gauss's principle with that motion in
+    /// place of free fall, and bodies of mass one with the radius of their own as that of gyration.
+    pub fn nearest(mut self, motion: &[(usize, Components)]) -> Vec<(usize, Components)> {
+        let components = self.assembly.components();
+        let inertia = |block: usize, k: usize| if k < 3 { 1.0 } else { self.assembly.body(block).radius.powi(2) };
+        let of_all = || self.blocks.iter().flat_map(|&block| components.iter().map(move |&k| (block, k)));
+        let moving = |block: usize| motion.binary_search_by_key(&block, |moving| moving.0).map(|place| motion[place].1);
+        self.problem.inverse_mass = of_all().map(|(block, k)| inertia(block, k).recip()).collect();
+        self.problem.load =
+            of_all().map(|(block, k)| moving(block).map_or(0.0, |velocity| inertia(block, k) * velocity[k])).collect();
+        self.solve().motion
+    }
+
     /// What the method has found in the terms of the assembly.
     fn constrained(&self, found: Found) -> Constrained {
         Constrained { motion: self.motion(&found.accelerations), forces: self.forces(&found.forces), found }
