@@ -79,6 +79,25 @@ fn a_thrown_block_comes_to_rest_and_stays() {
     }
 }
 
+/// A block in flight leaves what rests at rest, to the bit and without a pivot from step to step, until it comes near.
+#[test]
+fn what_flies_leaves_the_rest_at_rest() {
+    let mut scene = scenes::extruded(&scenes::column(10, 0.5).unwrap(), 1.0).unwrap();
+    scene.add_cuboid(at([-4.0, 0.0, 3.0]), [0.4, 0.4, 0.4], named("stone")).unwrap();
+    let mut world = world(scene);
+    world.set_velocity("stone", [9.0, 0.0, 1.0, 0.0, 3.0, 0.0]).unwrap();
+    let blocks: Vec<[f64; 7]> = world.poses().collect();
+    for step in 0..60 {
+        let record = world.step().unwrap();
+        let still = record.motionless.len() - 1;
+        assert!(record.exact && record.motionless[..still].iter().all(|still| *still));
+        assert!(step == 0 || record.counts.pivots == 0, "{step}: {record:?}");
+    }
+    assert!(world.poses().zip(&blocks).take(blocks.len() - 1).all(|(now, then)| now == *then));
+    (0..60).for_each(|_| assert!(world.step().unwrap().exact));
+    assert!(world.velocities()[9].iter().any(|v| *v != 0.0));
+}
+
 /// Free of forces: the centroid goes straight, energy and the angular momentum's length stay, its direction to first order.
 #[test]
 fn a_free_body_keeps_energy_and_momentum() {

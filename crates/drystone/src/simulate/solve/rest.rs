@@ -18,33 +18,48 @@ use super::{
 use crate::{
     contact::candidates::CandidateOf,
     simulate::{
-        formulate::contact_problem::ContactProblem, kinematics::Kinematics, motionless::motionless_bodies,
-        options::Reuse, state::State,
+        formulate::contact_problem::ContactProblem,
+        kinematics::{Kinematics, is_zero},
+        motionless::motionless_bodies,
+        options::Reuse,
+        state::State,
     },
 };
 use drystone_lcp::{Counts, Settings, Start, interior::End};
 use std::time::Instant;
 
-/// Solves a step in which all bodies, at rest so far, stay so. None if they do not, if that is not taken over, or if
-/// there is a step before. `work` is what it took either way.
+/// Solves a step in which all bodies that touch others, at rest so far, stay so; the rest flies. None if they do not, if that is not taken
+/// over, or if the step before was solved in another way. `work` is what it took either way.
 pub fn stay_at_rest<S: Kinematics>(
     state: &State<S>,
     previous: &mut PreviousStep<S>,
     step: &StepProblem<'_, S>,
     work: &mut Counts,
 ) -> Option<Motion<S>> {
-    if state.options.reuse != Reuse::Full || previous.problem.is_some() || !state.is_at_rest() {
+    let known = previous.at_rest.is_some();
+    if state.options.reuse != Reuse::Full || (previous.problem.is_some() && !known) {
+        return None;
+    }
+    let touching = touching(state, step.contacts);
+    let moves = |(velocity, touching): (&S::Velocity, &bool)| *touching && !is_zero(velocity);
+    if state.velocities.iter().zip(&touching).any(moves) {
         return None;
     }
     let begun = Instant::now();
     let contacts = step.contacts;
-    let decision = AtRest::new(state, contacts, (step.free, step.offsets)).decide().ok()?;
-    *work = *work + decision.work;
-    let start = decision.start?;
+    let mut free = step.free.to_vec();
+    free.iter_mut().zip(&touching).filter(|(_, touching)| !**touching).for_each(|(v, _)| *v = S::Velocity::default());
+    let start = if known {
+        same_impulses(previous, contacts)?
+    } else {
+        let decision = AtRest::new(state, contacts, (&free, step.offsets)).decide().ok()?;
+        *work = *work + decision.work;
+        decision.start?
+    };
     let mut p = vec![0.0; contacts.len()];
     start.indices.iter().zip(&start.z).for_each(|(&row, &z)| p[row] = z);
-    let velocities = contacts.velocities(step.free, &state.inverse_mass, |row| p[row]);
-    let residual = residual(state, step, &velocities, &p);
+    let mut velocities = contacts.velocities(&free, &state.inverse_mass, |row| p[row]);
+    let residual = residual(state, &StepProblem { free: &free, ..*step }, &velocities, &p);
     // Beside large impulses a residual that may stand could still move a small body.
     let still = motionless_bodies(&state.scene, &velocities, state.options.dt);
     if residual > Settings::default().residual || still.contains(&false) {
@@ -54,6 +69,8 @@ pub fn stay_at_rest<S: Kinematics>(
     let (_, friction_error) = step.coulomb_error(&velocities, &none, |row| p[row]);
     let q = contacts.q(step.free, step.offsets, &none);
     previous.at_rest = Some(RestSolution { start, q });
+    let flying = (0..touching.len()).filter(|&body| !touching[body]);
+    flying.for_each(|body| velocities[body] = step.free[body]);
     Some(Motion {
         velocities,
         sliding: none,
@@ -68,6 +85,29 @@ pub fn stay_at_rest<S: Kinematics>(
         collisions: 0,
         inconsistent: None,
     })
+}
+
+/// Which bodies have a contact.
+fn touching<S: Kinematics>(state: &State<S>, contacts: &ContactProblem<S>) -> Vec<bool> {
+    let mut touching = vec![false; state.inverse_mass.len()];
+    contacts.candidates().iter().flat_map(|candidate| candidate.id.bodies).for_each(|body| touching[body] = true);
+    touching
+}
+
+/// The impulses of the step before, if each of its contacts that bears is still there.
+fn same_impulses<S: Kinematics>(previous: &PreviousStep<S>, contacts: &ContactProblem<S>) -> Option<Start> {
+    let (before, solution) = previous.problem.as_ref().zip(previous.at_rest.as_ref())?;
+    let mut p = vec![0.0; before.len()];
+    solution.start.indices.iter().zip(&solution.start.z).for_each(|(&row, &z)| p[row] = z);
+    let mut start = Start { indices: Vec::new(), z: Vec::new() };
+    for (k, old) in contacts.matches(before) {
+        let Some(old) = old else { continue };
+        for (row, old) in contacts.rows(k).zip(before.rows(old)).filter(|(_, old)| p[*old] > 0.0) {
+            start.indices.push(row);
+            start.z.push(p[old]);
+        }
+    }
+    (start.indices.len() == solution.start.indices.len()).then_some(start)
 }
 
 /// A start of the step's problem from nothing: the rows that bear in the answer of the interior-point method, with their
