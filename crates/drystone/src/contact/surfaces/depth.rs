@@ -4,7 +4,7 @@
 //! of both lie on one another and look the same way. From each such place a point inside both is taken; the depth there is its
 //! distance from the surface that it has to get out of.
 
-use super::{Pair, nearest::nearest};
+use super::{Pair, in_parts::in_parts, nearest::nearest};
 use crate::{
     geometry::{Surface, Vector3},
     interrupt::poll,
@@ -24,7 +24,8 @@ pub(super) fn depth(pair: &Pair, candidates: &[[u32; 2]]) -> Option<f64> {
         }
         deepest = deepest.max(through(pair, side, candidates));
     }
-    deepest = deepest.max(same_side(pair, candidates));
+    let under = in_parts(candidates, |part| vec![same_side(pair, part)]);
+    deepest = under.into_iter().fold(deepest, f64::max);
     (deepest > pair.tolerance).then_some(deepest)
 }
 
@@ -45,8 +46,26 @@ fn within(other: &Seen, point: Vector3, tolerance: f64) -> f64 {
 /// The greatest depth along edges of one surface that go through triangles of the other, and at vertices behind these.
 fn through(pair: &Pair, side: usize, candidates: &[[u32; 2]]) -> f64 {
     let (one, other) = pair.seen_from(side);
-    let mut crossed: Vec<(u32, f64)> = Vec::new();
-    let mut behind: BTreeSet<u32> = BTreeSet::new();
+    let crossings = in_parts(candidates, |part| crossings(pair, side, part));
+    let behind: BTreeSet<u32> = crossings.iter().map(|&(_, _, end)| end).collect();
+    let mut crossed: Vec<(u32, f64)> = crossings.into_iter().map(|(edge, share, _)| (edge, share)).collect();
+    crossed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut deepest = 0.0_f64;
+    for edge in crossed.chunk_by(|a, b| a.0 == b.0) {
+        let [from, to] = one.edges()[edge[0].0 as usize].ends.map(|k| one.vertices()[k as usize]);
+        let shares: Vec<f64> = [0.0].into_iter().chain(edge.iter().map(|crossing| crossing.1)).chain([1.0]).collect();
+        for stretch in shares.windows(2) {
+            let middle = from + 0.5 * (stretch[0] + stretch[1]) * (to - from);
+            deepest = deepest.max(within(&other, middle, pair.tolerance));
+        }
+    }
+    deepest.max(behind_them(one, &other, behind, pair.tolerance))
+}
+
+/// Edges of one surface that go through triangles of the other: where, as a share of the edge, and the end behind.
+fn crossings(pair: &Pair, side: usize, candidates: &[[u32; 2]]) -> Vec<(u32, f64, u32)> {
+    let (one, other) = pair.seen_from(side);
+    let mut crossed = Vec::new();
     for candidate in candidates {
         poll(LOOK);
         let (own, against) = (candidate[side], candidate[1 - side]);
@@ -68,21 +87,10 @@ fn through(pair: &Pair, side: usize, candidates: &[[u32; 2]]) -> f64 {
             if !is_over(ends[0] + share * (ends[1] - ends[0]), &corners, normal, pair.tolerance) {
                 continue;
             }
-            crossed.push((edge, share));
-            behind.insert(found.ends[if heights[0] < heights[1] { 0 } else { 1 }]);
+            crossed.push((edge, share, found.ends[if heights[0] < heights[1] { 0 } else { 1 }]));
         }
     }
-    crossed.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    let mut deepest = 0.0_f64;
-    for edge in crossed.chunk_by(|a, b| a.0 == b.0) {
-        let [from, to] = one.edges()[edge[0].0 as usize].ends.map(|k| one.vertices()[k as usize]);
-        let shares: Vec<f64> = [0.0].into_iter().chain(edge.iter().map(|crossing| crossing.1)).chain([1.0]).collect();
-        for stretch in shares.windows(2) {
-            let middle = from + 0.5 * (stretch[0] + stretch[1]) * (to - from);
-            deepest = deepest.max(within(&other, middle, pair.tolerance));
-        }
-    }
-    deepest.max(behind_them(one, &other, behind, pair.tolerance))
+    crossed
 }
 
 /// Vertices looked at behind those where a surface goes in: enough to say how deep, if not always the deepest.

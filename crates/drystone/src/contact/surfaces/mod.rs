@@ -6,6 +6,7 @@
 
 mod depth;
 mod facing;
+mod in_parts;
 mod nearest;
 mod planes;
 mod sharp;
@@ -17,6 +18,7 @@ use crate::{
     interrupt::poll,
     scene::Body,
 };
+use in_parts::in_parts;
 use nearest::distance;
 use parry3d_f64::partitioning::BvhNode;
 use std::{
@@ -149,17 +151,21 @@ pub(super) fn touch(a: &Sheets, b: &Sheets, offset: Vector3, tolerance: f64) -> 
 /// Pairs of triangles that lie on one another.
 type Lying = HashSet<[u32; 2], BuildHasherDefault<Mixed>>;
 
-/// A hash of two numbers of triangles: there are millions of them, and nobody chooses them to collide.
+/// A hash of some numbers, of triangles mostly: there are millions of them, and nobody chooses them to collide.
 #[derive(Default)]
 struct Mixed(u64);
 
 impl Hasher for Mixed {
     fn finish(&self) -> u64 {
-        self.0
+        self.0 ^ self.0 >> 32
     }
 
     fn write(&mut self, bytes: &[u8]) {
-        bytes.iter().for_each(|&byte| self.write_u64(byte.into()));
+        for chunk in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.write_u64(u64::from_ne_bytes(word));
+        }
     }
 
     fn write_u32(&mut self, number: u32) {
@@ -174,17 +180,21 @@ impl Hasher for Mixed {
 
 /// Every point where two surfaces touch that do not overlap.
 fn points_of(pair: &Pair, candidates: &[[u32; 2]]) -> Vec<Found> {
-    let mut lying = Lying::default();
-    let mut found = Vec::new();
-    for &[ta, tb] in candidates {
-        poll(LEAF);
-        let Some(shared) = facing::shared(pair.surfaces, [ta, tb], pair.offset, pair.tolerance) else { continue };
-        lying.insert([ta, tb]);
-        let [a, b] = pair.surfaces;
+    let [a, b] = pair.surfaces;
+    let shared = in_parts(candidates, |part| {
+        let lying = part.iter().inspect(|_| poll(LEAF)).filter_map(|&triangles| {
+            let shared = facing::shared(pair.surfaces, triangles, pair.offset, pair.tolerance)?;
+            Some((triangles, shared))
+        });
+        lying.collect()
+    });
+    let lying: Lying = shared.iter().map(|(triangles, _)| *triangles).collect();
+    let mut found = Vec::with_capacity(shared.iter().map(|(_, shared)| shared.corners.len()).sum());
+    for (triangles @ [ta, tb], shared) in shared {
         let plane = Plane::Between(a.face(ta), b.face(tb));
-        let at = |(point, gap)| Found { plane, point, normal: shared.normal, gap, triangles: [ta, tb] };
+        let at = |(point, gap)| Found { plane, point, normal: shared.normal, gap, triangles };
         found.extend(shared.corners.into_iter().map(at));
     }
-    found.extend(sharp::sharp(pair, candidates, &lying));
+    found.extend(in_parts(candidates, |part| sharp::sharp(pair, part, &lying)));
     found
 }

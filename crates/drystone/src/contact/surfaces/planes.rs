@@ -1,8 +1,8 @@
 //! Points of one plane: those at the corners of their hull bear all that the others can.
 
-use super::{Feature, Found, Plane, SurfacePoint};
+use super::{Feature, Found, Mixed, SurfacePoint, in_parts::in_parts};
 use crate::geometry::{Vector3, convex_outline};
-use std::collections::BTreeMap;
+use std::{collections::HashMap, hash::BuildHasherDefault, ops::Range};
 
 /// Radians. Planes that differ by more are never one, however small what lies on them.
 const SAME: f64 = 1e-2;
@@ -12,6 +12,9 @@ const COMPARED: usize = 2000;
 
 /// A point, with the numbers of the two sheets that it was found on.
 type OnSheets = ([usize; 2], Found);
+
+/// The sheets and triangles that a point is named by.
+type Corner = ([usize; 2], [u32; 2]);
 
 /// Points on one plane, with its normal.
 struct Group {
@@ -44,8 +47,8 @@ impl Group {
         angle <= SAME && angle * other.extent <= tolerance && other.points.iter().all(near)
     }
 
-    /// Leaves the corners of the hull.
-    fn outline(&mut self, tolerance: f64) {
+    /// With the corners of the hull only.
+    fn outlined(&self, tolerance: f64) -> Self {
         let u = self.normal.any_orthonormal_vector();
         let v = self.normal.cross(u);
         let flat = |found: &Found| [u.dot(found.point), v.dot(found.point)];
@@ -59,21 +62,28 @@ impl Group {
                 apart.push(point);
             }
         }
-        self.points = outline(&apart, tolerance);
+        Self { points: outline(&apart, tolerance), ..*self }
     }
 }
 
 /// The contact points that are left, plane by plane, each with its name.
 pub(super) fn corners(found: Vec<OnSheets>, tolerance: f64) -> Vec<SurfacePoint> {
-    let mut planes: BTreeMap<([usize; 2], Plane), Vec<OnSheets>> = BTreeMap::new();
-    for point in found {
-        planes.entry((point.0, point.1.plane)).or_default().push(point);
+    let mut order: Vec<u32> = (0..found.len() as u32).collect();
+    let plane = |&k: &u32| (found[k as usize].0, found[k as usize].1.plane);
+    order.sort_by_key(plane);
+    let mut planes: Vec<Range<usize>> = Vec::new();
+    for group in order.chunk_by(|a, b| plane(a) == plane(b)) {
+        let start = planes.last().map_or(0, |before| before.end);
+        planes.push(start..start + group.len());
     }
-    let mut groups: Vec<Group> = planes.into_values().map(Group::of).collect();
-    groups.iter_mut().for_each(|group| group.outline(tolerance));
-    let mut groups = joined(groups, tolerance);
-    groups.iter_mut().for_each(|group| group.outline(tolerance));
-    let mut known: BTreeMap<([usize; 2], [u32; 2]), usize> = BTreeMap::new();
+    let groups = in_parts(&planes, |part| {
+        let points = |plane: &Range<usize>| order[plane.clone()].iter().map(|&k| found[k as usize]).collect();
+        part.iter().map(|plane| Group::of(points(plane)).outlined(tolerance)).collect()
+    });
+    drop((found, order, planes));
+    let groups = joined(groups, tolerance);
+    let groups = in_parts(&groups, |part| part.iter().map(|group| group.outlined(tolerance)).collect());
+    let mut known: HashMap<Corner, usize, BuildHasherDefault<Mixed>> = HashMap::default();
     let name = |([i, j], found): &OnSheets, normal: Vector3| {
         let corner = known.entry(([*i, *j], found.triangles)).or_default();
         *corner += 1;

@@ -34,6 +34,9 @@ pub(super) fn sharp(pair: &Pair, candidates: &[[u32; 2]], lying: &Lying) -> Vec<
     let mut found = Vec::new();
     for &[ta, tb] in candidates {
         poll(LOOK);
+        if lying.contains(&[ta, tb]) {
+            continue; // so do their edges and vertices
+        }
         for side in [0, 1] {
             let (own, against) = if side == 0 { (ta, tb) } else { (tb, ta) };
             let on = Over::of(pair, side, own, against);
@@ -242,16 +245,12 @@ fn crossings(pair: &Pair, [ta, tb]: [u32; 2], lying: &Lying, found: &mut Vec<Fou
     };
     for of_a in bent(a, ta) {
         for of_b in bent(b, tb) {
-            let lie = of_a.triangles.iter().any(|&t| of_b.triangles.iter().any(|&s| lying.contains(&[t, s])));
-            if lie {
-                continue;
-            }
-            found.extend(crossing(pair, [of_a, of_b], [ta, tb]));
+            found.extend(crossing(pair, [of_a, of_b], [ta, tb], lying));
         }
     }
 }
 
-fn crossing(pair: &Pair, [of_a, of_b]: [SurfaceEdge; 2], triangles: [u32; 2]) -> Option<Found> {
+fn crossing(pair: &Pair, [of_a, of_b]: [SurfaceEdge; 2], triangles: [u32; 2], lying: &Lying) -> Option<Found> {
     let [a, b] = pair.surfaces;
     let ends_a = of_a.ends.map(|k| a.vertices()[k as usize]);
     let ends_b = of_b.ends.map(|k| b.vertices()[k as usize] + pair.offset);
@@ -259,6 +258,9 @@ fn crossing(pair: &Pair, [of_a, of_b]: [SurfaceEdge; 2], triangles: [u32; 2]) ->
     let at = |[from, to]: [Vector3; 2], share: f64| from + share * (to - from);
     let (on_a, on_b) = (at(ends_a, shares[0]), at(ends_b, shares[1]));
     if on_a.distance(on_b) > pair.tolerance {
+        return None;
+    }
+    if of_a.triangles.iter().any(|&t| of_b.triangles.iter().any(|&s| lying.contains(&[t, s]))) {
         return None;
     }
     let [along_a, along_b] = [ends_a, ends_b].map(|[from, to]| (to - from).normalize_or_zero());

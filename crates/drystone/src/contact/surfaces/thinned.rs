@@ -5,9 +5,9 @@
 //! and that of a force that leans from n: what is lost by taking products of shares is the spread of the points, below the square of
 //! [`NEAR`].
 
-use super::SurfacePoint;
+use super::{Mixed, SurfacePoint};
 use crate::{geometry::Vector3, interrupt::poll};
-use std::collections::HashSet;
+use std::{collections::HashSet, hash::BuildHasherDefault};
 
 /// Points of a pair of bodies that are not thinned out.
 const MANY: usize = 500;
@@ -63,7 +63,7 @@ fn apart(lifted: &[Lifted]) -> Vec<usize> {
     let mut cell = 0.5 * SHARE;
     loop {
         poll(100 * lifted.len());
-        let mut taken = HashSet::new();
+        let mut taken: HashSet<[i64; 6], BuildHasherDefault<Mixed>> = HashSet::default();
         let new = |&k: &usize| taken.insert(lifted[k].map(|x| (x / cell).round() as i64));
         let found: Vec<usize> = (0..lifted.len()).filter(new).collect();
         if found.len() <= MOST {
