@@ -24,7 +24,7 @@ pub(super) fn in_parts<T: Sync, R: Send>(items: &[T], work: impl Fn(&[T]) -> Vec
 }
 
 fn on_threads<T: Sync, R: Send>(items: &[T], threads: usize, work: impl Fn(&[T]) -> Vec<R> + Sync) -> Vec<R> {
-    if threads < 2 {
+    if threads < 2 || items.is_empty() {
         return work(items);
     }
     let stopped = Arc::new(AtomicBool::new(false));

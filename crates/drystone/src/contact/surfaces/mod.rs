@@ -191,6 +191,7 @@ fn points_of(pair: &Pair, candidates: &[[u32; 2]]) -> Vec<Found> {
     let lying: Lying = shared.iter().map(|(triangles, _)| *triangles).collect();
     let mut found = Vec::with_capacity(shared.iter().map(|(_, shared)| shared.corners.len()).sum());
     for (triangles @ [ta, tb], shared) in shared {
+        poll(LEAF);
         let plane = Plane::Between(a.face(ta), b.face(tb));
         let at = |(point, gap)| Found { plane, point, normal: shared.normal, gap, triangles };
         found.extend(shared.corners.into_iter().map(at));

@@ -1,7 +1,10 @@
 //! Points of one plane: those at the corners of their hull bear all that the others can.
 
 use super::{Feature, Found, Mixed, SurfacePoint, in_parts::in_parts};
-use crate::geometry::{Vector3, convex_outline};
+use crate::{
+    geometry::{Vector3, convex_outline},
+    interrupt::poll,
+};
 use std::{collections::HashMap, hash::BuildHasherDefault, ops::Range};
 
 /// Radians. Planes that differ by more are never one, however small what lies on them.
@@ -9,6 +12,10 @@ const SAME: f64 = 1e-2;
 
 /// Planes that are compared with one another. A scan on a scan has more: there nothing is gained.
 const COMPARED: usize = 2000;
+
+/// Operations to compare the planes of two points, about, and to find whether a point is a corner of a hull.
+const COMPARISON: usize = 20;
+const POINT: usize = 200;
 
 /// A point, with the numbers of the two sheets that it was found on.
 type OnSheets = ([usize; 2], Found);
@@ -49,6 +56,7 @@ impl Group {
 
     /// With the corners of the hull only.
     fn outlined(&self, tolerance: f64) -> Self {
+        poll(POINT * self.points.len());
         let u = self.normal.any_orthonormal_vector();
         let v = self.normal.cross(u);
         let flat = |found: &Found| [u.dot(found.point), v.dot(found.point)];
@@ -70,7 +78,10 @@ impl Group {
 pub(super) fn corners(found: Vec<OnSheets>, tolerance: f64) -> Vec<SurfacePoint> {
     let mut order: Vec<u32> = (0..found.len() as u32).collect();
     let plane = |&k: &u32| (found[k as usize].0, found[k as usize].1.plane);
-    order.sort_by_key(plane);
+    order.sort_by(|a, b| {
+        poll(COMPARISON);
+        plane(a).cmp(&plane(b))
+    });
     let mut planes: Vec<Range<usize>> = Vec::new();
     for group in order.chunk_by(|a, b| plane(a) == plane(b)) {
         let start = planes.last().map_or(0, |before| before.end);
@@ -94,6 +105,7 @@ pub(super) fn corners(found: Vec<OnSheets>, tolerance: f64) -> Vec<SurfacePoint>
     let mut name = name;
     let mut points = Vec::new();
     for group in &groups {
+        poll(POINT * group.points.len());
         points.extend(group.points.iter().map(|point| name(point, group.normal)));
     }
     points

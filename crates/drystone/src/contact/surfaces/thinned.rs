@@ -62,9 +62,11 @@ fn lift(points: &[SurfacePoint]) -> Vec<Lifted> {
 fn apart(lifted: &[Lifted]) -> Vec<usize> {
     let mut cell = 0.5 * SHARE;
     loop {
-        poll(100 * lifted.len());
         let mut taken: HashSet<[i64; 6], BuildHasherDefault<Mixed>> = HashSet::default();
-        let new = |&k: &usize| taken.insert(lifted[k].map(|x| (x / cell).round() as i64));
+        let new = |&k: &usize| {
+            poll(100);
+            taken.insert(lifted[k].map(|x| (x / cell).round() as i64))
+        };
         let found: Vec<usize> = (0..lifted.len()).filter(new).collect();
         if found.len() <= MOST {
             return found;
