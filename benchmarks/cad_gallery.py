@@ -36,6 +36,9 @@ APART = 0.25
 """Of the diagonal of all parts: how far a part is drawn beyond its way to freedom, for each part
 that leaves before it."""
 
+NONE = 1e-3
+"""A way to freedom shorter than this, mm, is none: nothing is in front of the part."""
+
 HEAD = """# A gallery of CAD assemblies
 
 Small assemblies that are known to come apart in one way, or not at all. Each is planned with
@@ -63,6 +66,14 @@ def moved_apart(assembly: Assembly, plan: ds.Plan) -> dict[str, Solid]:
     return parts
 
 
+def way_of(move: ds.Move) -> str:
+    """A direction, and how far it is to freedom."""
+    length = 1000 * move.length
+    far = f"{length:.3g} mm" if length > NONE else "free at once"
+    direction = ", ".join(f"{x:.2g}" for x in np.round(move.direction, 6) + 0.0)
+    return f"{far} along ({direction})"
+
+
 def told(assembly: Assembly, plan: ds.Plan) -> str:
     """What the plan says, in a line or two."""
     if not plan.found:
@@ -75,19 +86,15 @@ def told(assembly: Assembly, plan: ds.Plan) -> str:
         if group in shown:
             continue
         shown.add(group)
-        ways = " then ".join(
-            f"({', '.join(f'{x:.2g}' for x in np.round(move.direction, 6) + 0.0)})"
-            f" {1000 * move.length:.3g} mm"
-            for move in moves
-        )
-        steps.append(f"{' + '.join(group)} {ways}")
-    text = "; ".join(steps) + "."
+        ways = ", then ".join(way_of(move) for move in moves)
+        steps.append(f"`{'` with `'.join(group)}` {ways}")
+    text = f"{'In this order' if len(steps) > 1 else 'Out goes'}: {'; '.join(steps)}."
     options = [f"`{key}={value}`" for key, value in assembly.options.items()]
     if assembly.obstacles:
         options.append("`obstacles=`")
     if options:
         text += f" With {' and '.join(options)}"
-        text += f"; without: `{assembly.without}`." if assembly.without else "."
+        text += f"; without, the plan says `{assembly.without}`." if assembly.without else "."
     if grouped and not options:
         text += f" Together: {', '.join(grouped)}."
     return text

@@ -124,6 +124,8 @@ def test_built_in_scenes_may_stand_for_files(cli: Cli) -> None:
 BAD = {
     "no such file": (["check", "nowhere.json"], ["nowhere.json"]),
     "a folder": (["check", "."], ["."]),
+    "no name": (["check", ""], ["empty"]),
+    "a name of spaces": (["plan", "  "], ["empty"]),
     "no such scene": (["plan", "colum:3"], ["colum"]),
     "a scene mistyped": (["simulate", "fallng_column"], ["did you mean", "falling_column"]),
     "a scene mistyped, with parameters": (["check", "colunm:3"], ["colunm:3", '"column"']),

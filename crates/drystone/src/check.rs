@@ -160,11 +160,12 @@ pub(crate) fn by_equilibrium(
 ) -> Option<Verdict> {
     match found {
         Membership::Inside => Some(held(assembly, blocks, equilibrium, spent)),
-        // Accelerations may prove the fall that the multipliers do not: they are the best motion, not the first.
+        // Accelerations, and the forces under them, may prove what multipliers and simplex' forces do not.
         Membership::Borderline => {
             let moved = complementarity_while(assembly, blocks, None, spent, go_on)?;
-            let falls = moved.status == Status::Solved && !moved.stable;
-            Some(if falls { moved } else { held(assembly, blocks, equilibrium, spent) })
+            let falls_perhaps = equilibrium.doubt().is_some_and(|doubt| doubt.is_at_a_limit());
+            let decided = moved.status == Status::Solved && !(moved.stable && falls_perhaps);
+            Some(if decided { moved } else { held(assembly, blocks, equilibrium, spent) })
         }
         Membership::Outside => {
             let moved = match assembly.rows(blocks).len() > few(assembly) {

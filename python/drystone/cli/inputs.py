@@ -27,6 +27,8 @@ def load_scene(text: str) -> Scene:
     from drystone import _core
     from drystone.scene import Scene
 
+    if not text.strip():
+        raise InputError("the scene's name is empty: a file, a built-in scene or - is needed")
     if text == STANDARD:
         return Scene._of(_core.Scene.from_json(_standard_input(), "standard input"))
     name, _, parameters = text.partition(":")

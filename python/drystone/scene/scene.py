@@ -179,7 +179,7 @@ class Scene(Adding, Paged):
         try:
             return cls._of(_core.Scene.load(fspath(path)))
         except _core.SceneError:
-            said = later.advice(Path(path))
+            said = later.advice(Path(path)) if fspath(path) else None
             if said is not None:
                 raise _core.SceneError(said) from None
             with open(path, "rb"):  # the OSError, if there is nothing to read

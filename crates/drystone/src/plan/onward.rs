@@ -132,7 +132,7 @@ impl StabilityTest for Onward<'_> {
         // The last test before the structure is complete brings all forces up to date, and checks them.
         let last = blocks.len() + 1 == self.assembly.blocks();
         let found = if last { self.solver.solve() } else { self.solver.decide() };
-        let outcome = match TestOutcome::of(found, 0) {
+        let outcome = match TestOutcome::sure(found, &self.solver, 0) {
             Some(outcome) => outcome,
             None => {
                 let tested = by_accelerations(self.assembly, blocks)?;

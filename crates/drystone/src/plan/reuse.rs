@@ -193,7 +193,7 @@ impl StabilityTest for Reuse<'_> {
             found = self.by_pivots(blocks, added, usize::MAX);
         }
         let pivots = self.solver.counts().pivots - before;
-        if let Some(outcome) = TestOutcome::of(found, pivots) {
+        if let Some(outcome) = TestOutcome::sure(found, &self.solver, pivots) {
             self.otherwise = None;
             return Ok(outcome);
         }

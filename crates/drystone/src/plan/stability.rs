@@ -8,7 +8,10 @@ use crate::{
     formulate::{Assembly, BlockSet, Components},
     judgement::{Judgement, judge, moving_blocks},
 };
-use drystone_lcp::{LcpError, Settings, Snapshot, Solver, Status, cone::Membership};
+use drystone_lcp::{
+    LcpError, Settings, Snapshot, Solver, Status,
+    cone::{ConeSolver, Membership},
+};
 
 /// What one test said, and what it cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,6 +114,13 @@ pub(super) fn solver_for(assembly: &Assembly) -> Solver {
 }
 
 impl TestOutcome {
+    /// What the answer of a solver means. None if it is none, or in doubt for no more than rounding: then accelerations, and the
+    /// forces under them, may prove what its own do not.
+    pub(super) fn sure(found: Membership, solver: &ConeSolver, pivots: usize) -> Option<Self> {
+        let at_a_limit = solver.doubt().is_none_or(|doubt| doubt.is_at_a_limit());
+        Self::of(found, pivots).filter(|outcome| !outcome.borderline || at_a_limit)
+    }
+
     /// What an answer means. None if it is none.
     pub(super) fn of(found: Membership, pivots: usize) -> Option<Self> {
         let (stands, borderline) = match found {

@@ -28,6 +28,13 @@ pub struct Doubt {
     pub power: f64,
 }
 
+impl Doubt {
+    /// Whether a certificate is proved, and it is only that forces leave no more than they may: a limit, not rounding.
+    pub fn is_at_a_limit(&self) -> bool {
+        self.power > MARGIN
+    }
+}
+
 /// Imbalance of a row that forces may leave: of the largest force in it, and of the block's own load (the row's unit).
 pub(super) const OF_FORCE: f64 = 1e-9;
 pub(super) const OF_LOAD: f64 = 1e-6;
