@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import trimesh
 
 import drystone as ds
 from conftest import Ran
@@ -154,6 +155,39 @@ def test_a_plate_thrown_along_a_floor_stops_on_a_straight_line(degrees: float) -
         speed**2 / (2 * friction * 9.81) - speed * dt / 2, abs=1e-3
     )
     assert (run.moving, run.not_exact) == ((), 0)
+
+
+def test_a_top_precesses_as_theory_says() -> None:
+    """A symmetric top on its tip: I3 w3 W - I1 W^2 cos(tilt) = m g l, its tilt stays.
+
+    Goldstein, Classical Mechanics, 5.7: I1 about the tip, W the slower of two roots. The integrator
+    is of first order, and so is what it is off.
+    """
+    spin, tilt, seconds, rim = 60.0, 0.2, 0.25, 2 * np.pi * np.arange(24) / 24
+    corners = np.column_stack([0.15 * np.cos(rim), 0.15 * np.sin(rim), np.full(24, 0.06)])
+    solid = trimesh.convex.convex_hull(np.vstack([[0, 0, 0], corners, [0, 0, 0.08]]))
+    mass, height = solid.volume, solid.center_mass[2]
+    inertia = np.diagonal(solid.moment_inertia)
+    about_tip = (inertia[0] + mass * height**2) * np.cos(tilt)
+    moment = inertia[2] * spin
+    root = np.sqrt(moment**2 - 4 * about_tip * mass * 9.81 * height)
+    rate = (moment - root) / (2 * about_tip)
+    axis = np.array([np.sin(tilt), 0, np.cos(tilt)])
+    turning = (spin - rate * np.cos(tilt)) * axis + np.array([0, 0, rate])
+    solid.apply_transform(trimesh.transformations.rotation_matrix(tilt, [0, 1, 0]))
+    scene = ds.Scene(dimension=3, friction=5.0)
+    scene.add_box((0, 0, -0.5), (4, 4, 1), name="ground", fixed=True)
+    scene.add_mesh(solid, name="top", density=1.0)
+
+    off = []
+    for dt in (1 / 1000, 1 / 2000):
+        start = {"top": (*np.cross(turning, height * axis), *turning)}
+        run = ds.simulate(scene, dt, round(seconds / dt), velocities=start)
+        x, y, z = run.poses[-1, 1, :3]
+        off.append(np.arctan2(y, x) / seconds / rate - 1)
+        assert np.arctan2(np.hypot(x, y), z) == pytest.approx(tilt, abs=0.01)
+    assert abs(off[1]) < 0.006
+    assert off[0] / off[1] == pytest.approx(2, abs=0.3)
 
 
 def test_a_run_says_how_many_steps_are_not_exact(tower: ds.Scene) -> None:
