@@ -224,6 +224,41 @@ def test_in_space() -> None:
     assert verdict.must_stand is None
 
 
+def test_plans_of_structures_that_must_stand() -> None:
+    """Each step of a tilted wall must stand; what hangs between walls need not, as a whole."""
+    scene = turned(ds.scenes.wall(rows=2, columns=2, friction=0.7), 10.0)
+    plan = ds.plan(scene, strong=True)
+    assert plan.found
+    assert plan.strong
+    assert "each must stand" in str(plan)
+    assert plan.to_dict()["strong"] is True
+    for k in range(len(plan.order)):
+        assert ds.check(scene, plan.order[k:], strong=True).must_stand
+    hangs = ds.plan(between_walls(10.0), strong=True)
+    assert hangs.status == "whole_falls"
+    assert str(hangs).startswith("No order: the complete assembly need not stand")
+    assert ds.plan(between_walls(10.0)).found
+
+
+def test_what_hangs_comes_after_what_bears_it() -> None:
+    """A block between two leaning walls with a foot below it: the foot has to come first."""
+    scene = between_walls(10.0)
+    scene.add_box((0.0, -0.5), (0.5, 1.0), name="a foot")
+    scene.add_box((0.0, -1.5), (12.0, 1.0), name="ground", fixed=True)
+    assert ds.check(scene, ["block"]).stable
+    assert ds.check(scene, ["block"], strong=True).must_stand is False
+    plan = ds.plan(scene, strong=True)
+    assert plan.found
+    assert plan.order == ("block", "a foot")
+
+
+def test_what_does_not_go_with_strong() -> None:
+    scene = ds.scenes.column(3)
+    for wrong in ({"hold": 1}, {"margin": 0.1}, {"order": "robust"}, {"test": "lcp"}):
+        with pytest.raises(ValueError, match="strong"):
+            ds.plan(scene, strong=True, **wrong)  # type: ignore[arg-type]
+
+
 def test_the_same_search_in_every_run() -> None:
     scene = turned(ds.scenes.wall(rows=2, columns=2, friction=0.7), 20.0)
     first, second = (ds.check(scene, strong=True) for _ in range(2))

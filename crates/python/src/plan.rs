@@ -121,7 +121,7 @@ impl StabilityTest for Callback {
 
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // those of the Python function
-#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, ways=None, obstacles=None, margin=0.0))]
+#[pyo3(signature = (scene, test, node_limit=None, time_limit=None, progress=None, shortcuts=true, threads=None, cones=None, hold=0, ways=None, obstacles=None, margin=0.0, strong=false))]
 pub fn plan(
     py: Python<'_>,
     scene: &Scene,
@@ -136,13 +136,14 @@ pub fn plan(
     ways: Option<(Vec<[f64; 3]>, usize, usize)>,
     obstacles: Option<PyRef<'_, Scene>>,
     margin: f64,
+    strong: bool,
 ) -> PyResult<Plan> {
     let time = time_limit.map(Duration::try_from_secs_f64).transpose();
     let time = time.map_err(|_| PyValueError::new_err("time_limit must be a number of seconds, zero or more"))?;
     let limits = Limits { tests: node_limit, time, shortcuts, threads };
     let (pieces, obstacles) = obstacles.map(|scene| pieces_and_names(&scene.now())).unwrap_or_default();
     let clear = |(directions, moves, together)| ClearPath { directions, moves, together, obstacles: pieces };
-    let conditions = Conditions { hold, clear_path: ways.map(clear), margin };
+    let conditions = Conditions { hold, clear_path: ways.map(clear), margin, strong };
     let mut watch = Watch::new(progress);
     let signals = watch.signals.clone();
     let start = Instant::now();

@@ -170,6 +170,9 @@ def plan(
     order: Annotated[
         OrderOfPlan, typer.Option(help="The first found, or that with the largest smallest margin.")
     ] = "any",
+    strong: Annotated[
+        bool, typer.Option("--strong", help="Every structure must stand, not only can.")
+    ] = False,
     moves: Annotated[
         int, typer.Option(min=1, max=2, help="With --clear-path: by so many straight moves.")
     ] = 1,
@@ -217,6 +220,8 @@ def plan(
 
         if threads is not None:
             raise InputError(f"{scene} is a folder: --threads is for one scene, --workers for many")
+        if strong:
+            raise InputError(f"{scene} is a folder: --strong is for one scene")
         where = engine or "threads"
         limits = (node_limit, time_limit)
         return plan_many.run(
@@ -254,6 +259,7 @@ def plan(
         clear_path,
         margin,
         order,
+        strong,
         facets,
         cone,
         as_json,

@@ -38,6 +38,13 @@ ENDINGS = {
 }
 """What a plan's status says when there is no order."""
 
+STRONG_ENDINGS = {
+    "no_order": "No order of structures that must stand exists",
+    "undecided": "No order found; of some structures it is not decided whether they must stand",
+    "whole_falls": "No order: the complete assembly need not stand",
+}
+"""The same where every structure must stand."""
+
 
 @dataclass(frozen=True, slots=True)
 class TestRecord:
@@ -138,6 +145,8 @@ class Plan(Paged):
     "inscribed" or "circumscribed"."""
     margin: float = 0.0
     """The horizontal acceleration, in g, that every structure had to bear."""
+    strong: bool = False
+    """Whether every structure had to be one that must stand."""
     _margins: list[float] = field(default_factory=list, repr=False)
 
     @classmethod
@@ -148,6 +157,7 @@ class Plan(Paged):
         scene: Scene,
         cones: tuple[int, str],
         margin: float = 0.0,
+        strong: bool = False,
     ) -> Plan:
         way_out = tuple(
             tuple(Move(way[: scene.dimension], length) for way, length in moves)
@@ -178,6 +188,7 @@ class Plan(Paged):
             scene,
             cones,
             margin,
+            strong,
         )
 
     def __copy__(self) -> Plan:
@@ -242,15 +253,17 @@ class Plan(Paged):
         )
         if self.found:
             bearing = f", each bearing {self.margin:.3g} g sideways" if self.margin else ""
+            bearing += ", each must stand" if self.strong else ""
             return (
                 f"Order found for {counted(len(self.order), 'block')}{bearing}; {work}.\n"
                 f"Remove first: {shorten(self.order)}."
                 f"{self._said_of_groups()}{self._said_of_holds()}"
             )
-        text = f"{ENDINGS.get(self.status, self.status)}; {work}."
+        ending = STRONG_ENDINGS.get(self.status) if self.strong else None
+        text = f"{ending or ENDINGS.get(self.status, self.status)}; {work}."
         if self.margin:
             text = f"With a margin of {self.margin:.3g} g: {text[0].lower()}{text[1:]}"
-        if self.status == "whole_falls" and self.whole is not None:
+        if self.status == "whole_falls" and self.whole is not None and not self.whole.stable:
             # What its blocks do not bear on; its own first line says no more than this one.
             text += "".join(f"\n{line}" for line in str(self.whole).splitlines()[1:])
         text += f"\nLargest sub-assembly reached: {counted(len(self.reached), 'block')}"
@@ -301,6 +314,7 @@ class Plan(Paged):
                 if self.margin
                 else {}
             ),
+            **({"strong": True} if self.strong else {}),
             "hold_steps": [list(step) for step in self.hold_steps],
             "directions": [list(direction) for direction in self.directions],
             "moves": [

@@ -42,6 +42,7 @@ def plan(
     *,
     margin: float = 0.0,
     order: OrderOfPlan = "any",
+    strong: bool = False,
     moves: int = 1,
     together: int = 1,
     obstacles: Scene | None = None,
@@ -110,6 +111,10 @@ def plan(
     limits are those of each. No order has more than the complete structure itself. `Plan.margins`
     are those of the structures on the way.
 
+    With `strong` every structure, the complete one too, *must* stand, as `check(strong=True)` says
+    it: forces that may hold it are not enough. It goes with "reuse", with nothing held and
+    without a margin. A structure of which it is not decided counts as one that need not.
+
     >>> import drystone as ds
     >>> ds.plan(ds.scenes.column(4)).found
     True
@@ -131,6 +136,8 @@ def plan(
         raise ValueError(f"margin is {margin}: it must be zero or more, in g")
     if (least > 0 or order == "robust") and (hold or test != "reuse"):
         raise ValueError('margins go with test="reuse" and hold=0')
+    if strong and (hold or test != "reuse" or least > 0 or order == "robust"):
+        raise ValueError('strong=True goes with test="reuse" and hold=0, and without a margin')
     _check_ways(scene, clear_path, directions, moves, together, obstacles)
     for limit, what in ((node_limit, "node_limit"), (time_limit, "time_limit")):
         if limit is not None and not limit >= 0:
@@ -156,8 +163,9 @@ def plan(
             else None,
             None if obstacles is None else scene_of(obstacles)._core,
             with_margin,
+            strong,
         )
-        return Plan._of(core, test, scene, cones, with_margin)
+        return Plan._of(core, test, scene, cones, with_margin, strong)
 
     return robust(planned, least) if order == "robust" else planned(least)
 

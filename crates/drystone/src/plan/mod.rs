@@ -28,6 +28,7 @@ mod learned;
 mod lemma_tests;
 mod memory;
 mod methods;
+mod must_stand;
 mod nogood;
 mod onward;
 mod outcome;

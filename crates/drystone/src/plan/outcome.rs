@@ -68,6 +68,8 @@ pub struct Conditions {
     /// Every structure on the way, and the complete one, stands under any horizontal acceleration up to this one, over gravity; permanent
     /// loads stay as they are. In space it is up to 2 % more for some directions. Not with blocks held.
     pub margin: f64,
+    /// Every structure on the way, and the complete one, must stand, not only can. Not with blocks held, nor with a margin.
+    pub strong: bool,
 }
 
 /// How a search ended.

@@ -5,6 +5,7 @@ use super::clear_path::{Blocked, Moves, Paths};
 use super::dead_end::{dead_end, until_stopped};
 use super::found::{Found, check_alone};
 use super::in_turn::{InTurn, first_turn};
+use super::must_stand::MustStand;
 use super::outcome::{Conditions, Limits, MOST_HANDS, Monitor, Outcome, Plan};
 use super::reuse::Reuse;
 use super::search::Clock;
@@ -20,6 +21,7 @@ use crate::{
     formulate::{Assemble, Assembly, BlockSet},
     limit::accelerated,
     scene::SceneOf,
+    strong::{BUDGET, strong},
 };
 use std::{
     sync::atomic::AtomicBool,
@@ -88,9 +90,46 @@ pub fn plan_assembly_under<S: Assemble>(
     if conditions.margin != 0.0 {
         return plan_with_margin(scene, assembly, conditions, limits, monitor);
     }
+    if conditions.strong {
+        return plan_strong(scene, assembly, conditions, limits, monitor);
+    }
     with_named(assembly, test, limits, |test, limits| {
         plan_with_under(scene, assembly, test, conditions, limits, monitor)
     })
+}
+
+fn refused(parameter: &str, found: String, expected: &str) -> SceneError {
+    let (scene, parameter, expected) = ("plan".into(), parameter.into(), expected.into());
+    SceneError::BadParameter { scene, parameter, found, expected }
+}
+
+/// [`plan_assembly_under`] by [`Test::Reuse`], where every structure must stand.
+fn plan_strong<S: Assemble>(
+    scene: &SceneOf<S>,
+    assembly: &Assembly,
+    conditions: &Conditions,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    let start = Instant::now();
+    if conditions.hold > 0 {
+        return Err(refused("hold", conditions.hold.to_string(), "0 where every structure must stand").into());
+    }
+    let blocks = assembly.every_block();
+    let whole = || strong(assembly, &blocks, BUDGET, &mut |_| true).expect("nobody stops it").must_stand;
+    let outcome = match limits.interrupt(start).run(whole) {
+        None => return Ok(Plan::stopped(limits.stopped(start), start.elapsed())),
+        Some(None) => Outcome::Undecided,
+        Some(Some(false)) => Outcome::WholeFalls,
+        Some(Some(true)) => {
+            let mut test = MustStand::new(assembly);
+            let mut plan = plan_with_under(scene, assembly, &mut test, conditions, limits.after(start), monitor)?;
+            plan.total = start.elapsed();
+            return Ok(plan);
+        }
+    };
+    let whole = Some(check_blocks(assembly, &blocks));
+    Ok(Plan { whole, ..Plan::stopped(outcome, start.elapsed()) })
 }
 
 /// [`plan_assembly_under`] by [`Test::Reuse`], where every structure has to have a margin.
@@ -102,15 +141,14 @@ fn plan_with_margin<S: Assemble>(
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
     let start = Instant::now();
-    let refused = |parameter: &str, found: String, expected: &str| {
-        let (scene, parameter, expected) = ("plan".into(), parameter.into(), expected.into());
-        SceneError::BadParameter { scene, parameter, found, expected }
-    };
     if !(conditions.margin > 0.0 && conditions.margin.is_finite()) {
         return Err(refused("margin", conditions.margin.to_string(), "zero or more, over gravity").into());
     }
     if conditions.hold > 0 {
         return Err(refused("hold", conditions.hold.to_string(), "0 where there is a margin").into());
+    }
+    if conditions.strong {
+        return Err(refused("strong", true.to_string(), "false where there is a margin").into());
     }
     let stopped = || Ok(Plan::stopped(limits.stopped(start), start.elapsed()));
     let Some(cases) = limits.interrupt(start).run(|| accelerated(assembly, scene, conditions.margin)) else {
