@@ -1,22 +1,26 @@
 """Load factors: known and published ones, times beside HiGHS, random structures against programs
 and verdicts, and verdicts under gravity in random directions against programs.
 
-    .venv/bin/python benchmarks/limits.py [--random 300] [--directions 500] [--highs]
+    .venv/bin/python benchmarks/limits.py [--random 300] [--directions 500] [--cases 1000] [--highs]
 
 Random structures: `limit` beside HiGHS's maximum and minimum of the factor on the same cones, which
 must agree within 1e-7, and a bisection of `check` (for some of them: it takes 40 verdicts).
 Directions: so many on each of 20 structures in the plane, `check` beside the phase one of HiGHS on
 the same cones. A direction within 1e-7 of where the verdict changes may come out either way.
+Cases: so many combinations of two, four and six loads on a wall of 30 x 30 at once, and some of
+them by `check`.
 `--highs` times HiGHS on the known ones too: the wall of 30 x 30 takes half a minute.
 """
 
 from __future__ import annotations
 
 import argparse
+import copy
 import math
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -32,6 +36,8 @@ BISECTED = 10
 """Every so manieth random structure is bisected too, unless `--bisect` says otherwise."""
 
 STRUCTURES = 20
+CHECKED = 50
+"""Load cases that are put to `check` as well."""
 
 
 def main() -> int:
@@ -39,12 +45,14 @@ def main() -> int:
     parser.add_argument("--random", type=int, default=300)
     parser.add_argument("--bisect", type=int, default=BISECTED, metavar="EVERY")
     parser.add_argument("--directions", type=int, default=500)
+    parser.add_argument("--cases", type=int, default=1000)
     parser.add_argument("--highs", action="store_true")
     arguments = parser.parse_args()
     known(arguments.highs)
     published()
     wrong = random_structures(arguments.random, arguments.bisect)
     wrong += directions(arguments.directions)
+    wrong += load_cases(arguments.cases)
     return 1 if wrong else 0
 
 
@@ -114,6 +122,57 @@ def directions(count: int) -> int:
         f"{close} too near to tell, {wrong} disagree"
     )
     return wrong
+
+
+def load_cases(count: int) -> int:
+    """Wrong ones among load cases of a wall of 30 x 30: an earthquake, a lift, wind from the left,
+    snow, a column on the middle of the wall and a pull at its corner."""
+    scene = ds.scenes.wall(30, 30, friction=0.5)
+    ds.check(scene)  # contacts are found
+    bodies = [body for body in scene.bodies if not body.fixed]
+    place = np.array([body.center_of_mass for body in bodies])
+    weight = G * bodies[len(bodies) // 2].mass
+    top = place[:, 1] > place[:, 1].max() - 0.1
+    rightmost_first = np.argsort(-place[:, 0])
+    leftmost = {round(place[k, 1], 3): bodies[k].name for k in rightmost_first}
+    middle = int(np.argmin(np.abs(place[:, 0] - place[:, 0].mean()) + 1e3 * ~top))
+    corner = int(np.argmax(place[:, 0] + 1e3 * top))
+    loads = [
+        (G, 0.0),
+        (0.0, -G),
+        dict.fromkeys(leftmost.values(), (weight, 0.0)),
+        {body.name: (0.0, -weight) for body, above in zip(bodies, top, strict=True) if above},
+        {bodies[middle].name: (0.0, -30 * weight)},
+        {bodies[corner].name: (-3 * weight, 0.0)},
+    ]
+    random = np.random.default_rng(1)
+    low, high = (-0.6, -0.5, -1.0, 0.0, 0.0, 0.0), (0.6, 0.5, 1.0, 2.0, 1.0, 1.0)
+    factors = random.uniform(low, high, (count, len(loads)))
+    wrong = 0
+    for some in (2, 4, 6):
+        begun = time.perf_counter()
+        cases = ds.load_cases(scene, loads[:some], factors[:, :some])
+        took = time.perf_counter() - begun
+        looked_at = random.choice(count, min(count, CHECKED), replace=False)
+        for case in looked_at:
+            loaded = case_of(scene, loads[:some], factors[case, :some])
+            wrong += bool(cases.stands[case]) != ds.check(loaded).stable
+        print(f"{some} loads: {took:.2f} s. {cases} {len(looked_at)} checked, {wrong} wrong")
+    return wrong
+
+
+def case_of(scene: ds.Scene, loads: list[Any], factors: np.ndarray) -> ds.Scene:
+    """The scene with the loads of a case."""
+    case = copy.copy(scene)
+    for load, factor in zip(loads, factors, strict=True):
+        if isinstance(load, dict):
+            for name, force in load.items():
+                case.add_load(name, tuple(factor * np.asarray(force)))
+        else:
+            for body in scene.bodies:
+                force = factor * body.mass * np.asarray(load)
+                case.add_load(body.name, tuple(force), at=body.center_of_mass)
+    return case
 
 
 def verdict(scene: ds.Scene, program: Standing, angle: float) -> tuple[bool, bool]:

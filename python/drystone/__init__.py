@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from drystone.common.extras import MissingExtraError
     from drystone.equilibrium.contact_force import ContactForce, ContactForces
     from drystone.equilibrium.limits import Limit, LimitEnd, limit
+    from drystone.equilibrium.load_cases import LoadCases, load_cases
     from drystone.equilibrium.margins import Margin, margin
     from drystone.equilibrium.strong import Escape
     from drystone.equilibrium.structure import Structure
@@ -54,6 +55,7 @@ __all__ = [
     "Limit",
     "LimitEnd",
     "Load",
+    "LoadCases",
     "ManyPlans",
     "Margin",
     "MissingExtraError",
@@ -80,6 +82,7 @@ __all__ = [
     "imports",
     "lcp",
     "limit",
+    "load_cases",
     "margin",
     "meshes",
     "plan",
@@ -106,6 +109,7 @@ _HOMES = {
     "Limit": "drystone.equilibrium.limits",
     "LimitEnd": "drystone.equilibrium.limits",
     "Load": "drystone.scene",
+    "LoadCases": "drystone.equilibrium.load_cases",
     "ManyPlans": "drystone.many",
     "Margin": "drystone.equilibrium.margins",
     "MissingExtraError": "drystone.common.extras",
@@ -128,6 +132,7 @@ _HOMES = {
     "__version__": "drystone._core",
     "check": "drystone.equilibrium.verdict",
     "limit": "drystone.equilibrium.limits",
+    "load_cases": "drystone.equilibrium.load_cases",
     "margin": "drystone.equilibrium.margins",
     "plan": "drystone.planning.search",
     "plan_many": "drystone.many",

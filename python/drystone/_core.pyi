@@ -54,6 +54,7 @@ __all__ = [
     "lcp_solve",
     "least_friction",
     "limit",
+    "load_cases",
     "loads",
     "margin",
     "pair_frictions",
@@ -672,6 +673,22 @@ def limit(
     """`forces`: body, force on its centroid, moment (three numbers, of which the plane uses the
     last)."""
 
+def load_cases(
+    scene: Scene,
+    loads: Sequence[
+        tuple[
+            Sequence[tuple[str, Sequence[float], Sequence[float]]],
+            Sequence[float] | None,
+        ]
+    ],
+    factors: Sequence[Sequence[float]],
+    blocks: Sequence[str] | None = None,
+    cones: tuple[int, str] | None = None,
+    round_cones: bool = False,
+) -> tuple[NDArray[np.int8], int, float]:
+    """`loads`: forces and gravity, as in `limit`. Of each row of factors 1 (stands), 0 (falls) or
+    -1 (neither is proved); how many took a computation of their own; seconds."""
+
 def margin(
     scene: Scene,
     blocks: Sequence[str] | None,
@@ -731,13 +748,14 @@ def plan(
     ways: tuple[Sequence[tuple[float, float, float]], int, int] | None = None,
     obstacles: Scene | None = None,
     margin: float = 0.0,
+    strong: bool = False,
 ) -> Plan:
     """`test` is "lcp", "reuse", or a callable given (sorted indices of the sub-assembly's movable
     bodies in `Generators.names`, index of the body added last) that returns (stands, pivots).
     `progress` is called with (tests done, blocks placed, blocks in all) a few times a second.
     Blocks leave along straight lines if there are `ways`: directions, be they none, how many moves
     one after the other, and how many blocks together. With a `margin`, in g, "reuse" tests every
-    structure under accelerations to all sides.
+    structure under accelerations to all sides; with `strong` whether it must stand.
     """
 
 def forces_along(

@@ -58,6 +58,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<lcp_solver::LcpSnapshot>()?;
     module.add_function(wrap_pyfunction!(scene::catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(limit::limit, module)?)?;
+    module.add_function(wrap_pyfunction!(limit::load_cases, module)?)?;
     module.add_function(wrap_pyfunction!(strong::strong, module)?)?;
     module.add_function(wrap_pyfunction!(margin::margin, module)?)?;
     module.add_function(wrap_pyfunction!(margin::least_friction, module)?)?;

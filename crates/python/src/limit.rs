@@ -1,7 +1,7 @@
 //! `limit` and its answer.
 
 use crate::{
-    arrays::matrix,
+    arrays::{self, matrix},
     contact_forces::ContactForces,
     errors::scene_error,
     loads::vector,
@@ -14,7 +14,7 @@ use drystone::{
     geometry::Shape,
     limit::{self as core, blocks_named},
 };
-use numpy::PyArray2;
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use std::time::{Duration, Instant};
 
@@ -124,6 +124,32 @@ pub fn limit(
     let push = push_of(&assembly, &now, &set, &forces, gravity.as_deref())?;
     let found = interruptible(py, || core::limit(&assembly, &set, &push, cone))?;
     Limit::new(py, &assembly, &found, start.elapsed())
+}
+
+/// Of each case, a row of factors of the loads: 1 if it stands, 0 if it falls, -1 if neither is proved; how many took a computation
+/// of their own, and seconds.
+#[pyfunction]
+#[pyo3(signature = (scene, loads, factors, blocks=None, cones=None, round_cones=false))]
+#[allow(clippy::type_complexity)]
+pub fn load_cases<'py>(
+    py: Python<'py>,
+    scene: &Scene,
+    loads: Vec<(Forces, Option<Vec<f64>>)>,
+    factors: Vec<Vec<f64>>,
+    blocks: Option<Vec<String>>,
+    cones: Option<(usize, String)>,
+    round_cones: bool,
+) -> PyResult<(Bound<'py, PyArray1<i8>>, usize, f64)> {
+    let cone = if round_cones { FrictionCone::Round } else { FrictionCone::Pyramid };
+    let start = Instant::now();
+    let (now, assembly) = (scene.now(), scene.assembly(py, cones)?);
+    let set = raised(blocks_named(&assembly, blocks.as_deref()))?;
+    let push =
+        |(forces, gravity): &(Forces, Option<Vec<f64>>)| push_of(&assembly, &now, &set, forces, gravity.as_deref());
+    let loads = loads.iter().map(push).collect::<PyResult<Vec<_>>>()?;
+    let found = interruptible(py, || core::cases(&assembly, &set, &loads, &factors, cone))?;
+    let stands = found.stands.iter().map(|stands| stands.map_or(-1, i8::from)).collect();
+    Ok((arrays::vector(py, stands), found.solved, start.elapsed().as_secs_f64()))
 }
 
 /// The limit of a structure as it is now.

@@ -330,6 +330,11 @@ impl Assembly {
         solver
     }
 
+    /// The acceleration under which masses are weights, m/s^2: that of gravity, or 1 without any.
+    pub(crate) fn weighing(&self) -> f64 {
+        self.weighing
+    }
+
     /// The acceleration that a block's own loads give it, weight and others, m/s^2: without gravity the weight is that under
     /// 1 m/s^2.
     pub(crate) fn unit_of_acceleration(&self, block: usize) -> f64 {

@@ -121,7 +121,12 @@ impl Assembly {
     }
 }
 
-impl BodySpace<'_> {
+impl<'a> BodySpace<'a> {
+    /// Whose it is.
+    pub fn assembly(&self) -> &'a Assembly {
+        self.assembly
+    }
+
     /// The same without points between bodies that are fixed or held: only layers between them would feel these.
     pub fn of_moving(mut self) -> Self {
         let moves = |point: &Point| point.bodies.iter().any(Option::is_some);
@@ -133,9 +138,13 @@ impl BodySpace<'_> {
 
     /// The same under a push, whose factor is sought.
     pub fn under(mut self, push: &Push) -> Self {
-        let size = self.problem.size;
-        self.problem.push = self.blocks.iter().flat_map(|&block| push.on(block, size)).copied().collect();
+        self.problem.push = self.load(push);
         self
+    }
+
+    /// A push as a load of the problem, body after body.
+    pub fn load(&self, push: &Push) -> Vec<f64> {
+        self.blocks.iter().flat_map(|&block| push.on(block, self.problem.size)).copied().collect()
     }
 
     /// Forces under the largest factor of the push, and the motion in which more of it moves the blocks, in place of accelerations.
@@ -200,7 +209,7 @@ impl BodySpace<'_> {
     }
 
     /// The force at every point, from the unknowns of its cone.
-    fn forces(&self, unknowns: &[f64]) -> Vec<ContactForce> {
+    pub fn forces(&self, unknowns: &[f64]) -> Vec<ContactForce> {
         let (mut forces, mut next) = (Vec::with_capacity(self.points.len()), 0);
         for (Touched { contact, frame, .. }, point) in self.points.iter().zip(&self.problem.points) {
             let own = &unknowns[next..next + point.cone.unknowns()];

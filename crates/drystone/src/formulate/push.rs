@@ -90,6 +90,12 @@ impl Push {
         Self { wrenches: both.map(|(x, y)| a * x + b * y).collect() }
     }
 
+    /// Some pushes together, each times a factor.
+    pub(crate) fn sum(assembly: &Assembly, pushes: &[Self], factors: &[f64]) -> Self {
+        let none = Self::of_wrenches(assembly, |_| [0.0; 6]);
+        pushes.iter().zip(factors).fold(none, |sum, (push, factor)| sum.plus(1.0, push, *factor))
+    }
+
     /// Weights sideways as weights: along gravity again, in the plane. The moments of weights are none.
     pub(crate) fn turned(&self, assembly: &Assembly, right: [f64; 3]) -> Self {
         let size = assembly.components().len();

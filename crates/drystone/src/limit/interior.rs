@@ -1,6 +1,7 @@
 //! By the interior-point method: many blocks, or round cones.
 
 use super::{
+    at_once::at_once,
     ends::{End, Limit},
     walk,
 };
@@ -8,12 +9,10 @@ use crate::{
     check::check_blocks_while,
     crossover::from_interior,
     formulate::{Assembly, BlockSet, Constrained, FrictionCone, Push},
-    interrupt::{Interrupt, poll_now},
     judgement::{CLOSING, MARGIN},
     proof::{moving, power_of_fall},
 };
 use drystone_lcp::{Counts, Status};
-use std::{panic::resume_unwind, thread};
 
 /// The factors of the forces and of the motion may differ by this, beside one or themselves: to 1e-7 other programs agree with
 /// one another.
@@ -23,10 +22,11 @@ const APART: f64 = 1e-8;
 const IMBALANCE: f64 = 1e-7;
 
 pub(super) fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Limit {
-    let found = both_ends(blocks.len() >= WORTH_A_THREAD, |sign| {
+    let towards = |sign: f64| {
         let mut iterations = 0;
         (end(assembly, blocks, push, cone, sign, &mut iterations), iterations)
-    });
+    };
+    let found = at_once(blocks.len() >= WORTH_A_THREAD, || towards(1.0), || towards(-1.0));
     let mut iterations = found.iter().map(|(_, iterations)| iterations).sum();
     let mut ends = found.map(|(end, _)| end);
     if let [Ok(upper), Ok(lower)] = &ends {
@@ -59,35 +59,13 @@ pub(super) fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: F
 /// Fewest blocks for which the two ends are found on a thread each: fewer take less than a millisecond.
 const WORTH_A_THREAD: usize = 32;
 
-/// What is found for the push and for the opposite one, at the same time if that is worth a thread. Whoever may stop the caller may
-/// stop both.
-fn both_ends<T: Send>(worth: bool, work: impl Fn(f64) -> T + Sync) -> [T; 2] {
-    let [one, other] = [1.0, -1.0];
-    if !worth || thread::available_parallelism().map_or(1, Into::into) < 2 {
-        return [work(one), work(other)];
-    }
-    let interrupt = Interrupt::current();
-    thread::scope(|scope| {
-        let beside = scope.spawn(|| interrupt.instead(|| work(other)));
-        let own = work(one);
-        match beside.join() {
-            Ok(Some(done)) => [own, done],
-            Ok(None) => {
-                poll_now();
-                unreachable!("who stopped the other stops this as well")
-            }
-            Err(panic) => resume_unwind(panic),
-        }
-    })
-}
-
 /// The greatest factor, if forces and a motion prove it.
 pub(super) fn greatest(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Option<f64> {
     end(assembly, blocks, push, cone, 1.0, &mut 0).ok().map(|end| end.factor)
 }
 
 /// An end, or the one that was found though its residuals are too large.
-fn end(
+pub(super) fn end(
     assembly: &Assembly,
     blocks: &BlockSet,
     push: &Push,

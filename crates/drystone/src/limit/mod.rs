@@ -10,7 +10,11 @@
 //! slides also opens; see docs/theory/limit-loads.md.
 
 mod accelerated;
+mod at_once;
+mod cases;
+mod centre;
 mod ends;
+mod fall;
 mod interior;
 mod margin;
 mod region;
@@ -18,6 +22,7 @@ mod root;
 mod walk;
 
 pub(crate) use accelerated::accelerated;
+pub use cases::{Cases, cases};
 pub use ends::{End, Limit};
 pub use margin::{Asked, Loads, Margin, least_friction, margin};
 

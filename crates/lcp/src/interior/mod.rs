@@ -28,6 +28,7 @@
 mod layers;
 mod matrix;
 mod method;
+mod nearby;
 mod problem;
 mod resting;
 mod scaled;
@@ -36,5 +37,6 @@ mod solving;
 
 pub use layers::Layers;
 pub use method::{End, Found};
+pub use nearby::Nearby;
 pub use problem::{Cone, Gauss, Point};
 pub use solving::worth_of_pivots;

@@ -171,7 +171,13 @@ impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
         a.iter().flatten().zip(self.root.iter().flatten()).map(|(a, root)| a * root * self.unit).collect()
     }
 
-    /// The other way round.
+    /// A load in own units, from the caller's.
+    pub fn load_in_own_units(&self, load: &[f64]) -> Vec<[f64; B]> {
+        let of = |(load, root): (&[f64], &[f64; B])| std::array::from_fn(|k| load[k] * root[k] / self.unit);
+        load.chunks_exact(B).zip(&self.root).map(of).collect()
+    }
+
+    /// The other way round of [`Self::in_newtons`].
     pub fn in_own_units(&self, forces: &[f64]) -> Vec<f64> {
         forces.iter().zip(&self.lengths).map(|(force, length)| force * length / self.unit).collect()
     }
