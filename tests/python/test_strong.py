@@ -281,6 +281,14 @@ def test_the_command_line(cli: Callable[..., Ran], tmp_path: Path) -> None:
     assert "--strong" in cli("check", hangs, "--strong-budget", "5").err
     wall = tmp_path / "wall.json"
     turned(ds.scenes.wall(rows=3, columns=2, friction=0.7), 10.0).save(wall)
+    planned = cli("plan", wall, "--strong", "--json")
+    assert planned.status == 0
+    assert json.loads(planned.out)["strong"] is True
+    assert cli("plan", hangs, "--strong").status == 1
+    for wrong in (("--hold", "1"), ("--margin", "0.1"), ("--test", "lcp")):
+        refused = cli("plan", wall, "--strong", *wrong)
+        assert refused.status == 2
+        assert "--strong" in refused.err
     open_question = cli("check", wall, "--strong", "--strong-budget", "1")
     assert open_question.status == 2
     assert "not decided whether it must stand" in open_question.err

@@ -52,6 +52,12 @@ def run(
     """0 if an order was found, 1 if not."""
     if not clear_path and (moves > 1 or together > 1 or obstacles is not None):
         raise InputError("--moves, --together and --obstacles are for --clear-path")
+    if (strong or margin or order != "any") and (hold or test != "reuse"):
+        raise InputError(
+            "--margin, --order robust and --strong go with --test reuse, without --hold"
+        )
+    if strong and (margin or order != "any"):
+        raise InputError("--strong goes without --margin and --order robust")
     picture = picture_path(output, ".html", *FILMS)
     scene = load_scene(scene_name)
     in_the_way = None if obstacles is None else load_scene(obstacles)
