@@ -326,8 +326,15 @@ def test_the_command_line_computes_them_of_scenes_that_are_not_too_large(
         return str(json.loads(capsys.readouterr().out)["forces_kind"])
 
     assert [kind(), kind("--forces", "any")] == ["canonical", "any"]
-    monkeypatch.setattr("drystone.cli.check.MOST_POINTS", 10)
+
+    def kind_of_plan() -> str:
+        assert run(["plan", "pyramid:3", "--json"]) == 0
+        return str(json.loads(capsys.readouterr().out)["whole"]["forces_kind"])
+
+    assert kind_of_plan() == "canonical"
+    monkeypatch.setattr("drystone.cli.forces.MOST_POINTS", 10)
     assert [kind(), kind("--forces", "canonical")] == ["any", "canonical"]
+    assert kind_of_plan() == "any"
 
 
 def test_the_kind_says_where_they_are_not_found() -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from drystone.cli.errors import InputError
+from drystone.cli.forces import with_forces_in_time
 from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
@@ -15,10 +15,6 @@ from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
 from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
 from drystone.report.tables import verdict_table
-
-MOST_POINTS = 20_000
-"""Without `--forces` larger scenes are shown with the forces that the verdict was found with: those
-of least norm take many times as long as a verdict, here some seconds."""
 
 
 def run(
@@ -51,8 +47,8 @@ def run(
         strong=strong,
         strong_budget=budget or BUDGET,
     )
-    if forces is None and len(verdict.forces) > MOST_POINTS:
-        verdict = replace(verdict, forces=verdict.forces.as_found())
+    if forces is None:
+        verdict = with_forces_in_time(verdict)
     draw(verdict if verdict.escape is None else verdict.escape, picture)
     if as_json:
         verdict.write_json(sys.stdout)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import sys
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
 from drystone.cli.errors import InputError
+from drystone.cli.forces import with_forces_in_time
 from drystone.cli.inputs import (
     FILMS,
     kind_of,
@@ -85,6 +87,8 @@ def run(
         with reporting_files():
             _write(found, picture)
     if as_json:
+        if found.whole is not None:
+            found = replace(found, whole=with_forces_in_time(found.whole))
         found.write_json(sys.stdout)
     else:
         _print(found, picture)
