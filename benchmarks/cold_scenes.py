@@ -116,6 +116,6 @@ FAMILIES = (
         2,
     ),
     Family("arch", _sizes(partial(ds.scenes.arch, friction=0.5), (60,), (110,), (200,)), 3),
-    Family("loose brick", _sizes(loose_brick, (6,), (8,), (12,)), 1),
+    Family("loose brick", _sizes(loose_brick, (6,), (8,), (12,), (24,), (36,)), 1),
     Family("leaning bricks", _sizes(leaning, (10, 10), (15, 15), (30, 30)), 1),
 )

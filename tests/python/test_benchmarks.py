@@ -18,6 +18,7 @@ import drystone as ds
 BENCHMARKS = str(Path(__file__).parents[2] / "benchmarks")
 sys.path.insert(0, BENCHMARKS)
 
+import calls  # noqa: E402
 import cold  # noqa: E402
 import cold_peers  # noqa: E402
 import cold_results  # noqa: E402
@@ -242,3 +243,20 @@ def test_kept_work_is_that_of_the_cases() -> None:
     assert work.CASES["plan column:80"]()["pivots"] == 156
     line = work.table({("a", "pivots"): "9"}, {("a", "pivots"): "3"}, {("a", "pivots")})
     assert line.endswith("| a | pivots | 3 | 9 **more** |")
+
+
+def test_whole_calls_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
+    scene = cold_scenes.loose_brick(2)
+    monkeypatch.setattr(
+        calls,
+        "CALLS",
+        {
+            "plan": lambda: calls._plan(ds.scenes.arch(7), hold=1),
+            "step": lambda: calls._first_step(scene),
+            "forces": lambda: calls._forces(scene),
+        },
+    )
+    found = {name: calls.one(name) for name in calls.CALLS}
+    assert found["plan"]["said"] == "found"
+    assert found["forces"]["said"] == f"{len(ds.check(scene).forces)} forces, canonical"
+    assert all(0 < float(str(one["seconds"])) < 60 for one in found.values())

@@ -98,10 +98,10 @@ def full(n: int) -> tuple[Any, Any]:
     return half.T @ half / n, -np.abs(random.standard_normal(n))
 
 
-def leaning(rows: int, columns: int) -> ds.Scene:
-    """A wall of bricks in space under sideways gravity, which takes long to judge."""
+def leaning(rows: int, columns: int, k: float = 0.5) -> ds.Scene:
+    """A wall of bricks in space under sideways gravity, k g, which takes long to judge."""
     scene = json.loads(ds.scenes.brick_wall(rows, columns).to_json())
-    scene["gravity"] = [0.5 * 9.81, 0.1, -9.81]
+    scene["gravity"] = [k * 9.81, 0.1, -9.81]
     return ds.Scene.from_json(json.dumps(scene))
 
 
@@ -174,6 +174,12 @@ def test_a_step_leaves_the_world_as_it_was_before_it() -> None:
     assert (world.steps, world.state_hash()) == (0, hashed)
     assert np.array_equal(world.poses, other.poses)
     assert np.array_equal(world.velocities, other.velocities)
+
+
+@pytest.mark.parametrize("after", [SOON, 5 * SOON])
+def test_the_first_step_of_what_falls_at_once(after: float) -> None:
+    scene = leaning(12, 12, k=1.5)
+    interrupted(lambda: endlessly(lambda: ds.World(scene).step()), after)
 
 
 def test_a_run_is_left_within_a_step() -> None:
