@@ -95,7 +95,7 @@ fn what_flies_leaves_the_rest_at_rest() {
     }
     assert!(world.poses().zip(&blocks).take(blocks.len() - 1).all(|(now, then)| now == *then));
     (0..60).for_each(|_| assert!(world.step().is_ok()));
-    assert!(world.velocities()[9].iter().any(|v| *v != 0.0));
+    assert!(world.poses().zip(&blocks).take(blocks.len() - 1).any(|(now, then)| now != *then), "nothing was hit");
 }
 
 /// Free of forces: the centroid goes straight, energy and the angular momentum's length stay, its direction to first order.
