@@ -48,6 +48,9 @@ import drystone as ds
 from drystone import _core, imports
 from drystone.statics import QuietHighs
 
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "python"))
+from limit_programs import balance
+
 FRICTION = 0.5
 UNIQUE = 1e-6
 """Range of a component, of the weight of all."""
@@ -173,16 +176,8 @@ def ranges(scene: ds.Scene, pairs: list[tuple[int, int]]) -> list[np.ndarray]:
     g = _core.generators(scene._core, (8, "circumscribed"))
     unit = np.abs(g.applied).max()
     columns = len(g.indptr) - 1
-    highs = QuietHighs()
-    highs.setOptionValue("threads", 1)
     rows = len(g.applied)
-    none = np.zeros(0, dtype=np.int32)
-    right = -g.applied / unit
-    highs.addRows(rows, right, right, 0, np.zeros(rows, dtype=np.int32), none, np.zeros(0))
-    infinite = np.full(columns, highspy.kHighsInf)
-    where = (g.indptr[:-1].astype(np.int32), g.indices.astype(np.int32))
-    zero = np.zeros(columns)
-    highs.addCols(columns, zero, zero, infinite, len(g.data), *where, g.data)
+    highs = balance(g, -g.applied / unit)
     matrix = csc_matrix((g.data, g.indices, g.indptr), shape=(rows, columns))
     place = {int(name): 6 * index for index, name in enumerate(g.names)}
     contacts = [(int(contact.a), int(contact.b)) for contact in scene.contacts]

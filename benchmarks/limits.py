@@ -15,12 +15,10 @@ them by `check`.
 from __future__ import annotations
 
 import argparse
-import copy
 import math
 import sys
 import time
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -28,7 +26,7 @@ import drystone as ds
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "python"))
 from contact_laws import cut_stone
-from limit_programs import Standing, factors, push_of
+from limit_programs import Standing, case_of, factors, push_of
 from published_walls import PUBLISHED, published_wall
 
 G = 9.81
@@ -159,20 +157,6 @@ def load_cases(count: int) -> int:
             wrong += bool(cases.stands[case]) != ds.check(loaded).stable
         print(f"{some} loads: {took:.2f} s. {cases} {len(looked_at)} checked, {wrong} wrong")
     return wrong
-
-
-def case_of(scene: ds.Scene, loads: list[Any], factors: np.ndarray) -> ds.Scene:
-    """The scene with the loads of a case."""
-    case = copy.copy(scene)
-    for load, factor in zip(loads, factors, strict=True):
-        if isinstance(load, dict):
-            for name, force in load.items():
-                case.add_load(name, tuple(factor * np.asarray(force)))
-        else:
-            for body in scene.bodies:
-                force = factor * body.mass * np.asarray(load)
-                case.add_load(body.name, tuple(force), at=body.center_of_mass)
-    return case
 
 
 def verdict(scene: ds.Scene, program: Standing, angle: float) -> tuple[bool, bool]:

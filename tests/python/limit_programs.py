@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import copy
+from collections.abc import Sequence
+from typing import Any
+
 import highspy
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +25,36 @@ def push_of(scene: ds.Scene, gravity: tuple[float, ...]) -> NDArray[np.float64]:
     return pull.ravel()
 
 
+def balance(g: _core.Generators, right: NDArray[np.float64]) -> QuietHighs:
+    """The program of forces along the generators, none below 0, whose wrenches are `right`; no
+    cost. To 1e-9."""
+    highs = QuietHighs()
+    highs.setOptionValue("threads", 1)  # as everywhere: HiGHS has one pool for a process
+    for option in ("primal_feasibility_tolerance", "dual_feasibility_tolerance"):
+        highs.setOptionValue(option, 1e-9)
+    rows, columns = len(right), len(g.indptr) - 1
+    none, starts = np.zeros(0, dtype=np.int32), np.zeros(rows, dtype=np.int32)
+    highs.addRows(rows, right, right, 0, starts, none, np.zeros(0))
+    zero, infinite = np.zeros(columns), np.full(columns, highspy.kHighsInf)
+    where = (g.indptr[:-1].astype(np.int32), g.indices.astype(np.int32))
+    highs.addCols(columns, zero, zero, infinite, len(g.data), *where, g.data)
+    return highs
+
+
+def case_of(scene: ds.Scene, loads: Sequence[Any], factors: Sequence[float]) -> ds.Scene:
+    """The scene with some loads of `load_cases`, each times a factor."""
+    case = copy.copy(scene)
+    for load, factor in zip(loads, factors, strict=True):
+        if isinstance(load, dict):
+            for name, force in load.items():
+                case.add_load(name, tuple(factor * np.asarray(force)))
+        else:
+            for body in scene.bodies:
+                force = factor * body.mass * np.asarray(load)
+                case.add_load(body.name, tuple(force), at=body.center_of_mass)
+    return case
+
+
 class Standing:
     """Whether a planar structure stands under gravity in some direction: phase one of HiGHS on the
     same cones, kept from one direction to the next."""
@@ -28,19 +62,8 @@ class Standing:
     def __init__(self, scene: ds.Scene) -> None:
         g = _core.generators(scene._core, None)
         self._mass = 1.0 / g.inverse_mass.reshape(-1, 3)[:, 0]
-        rows, columns = len(g.applied), len(g.indptr) - 1
-        self._rows = np.arange(rows, dtype=np.int32)
-        self._highs = QuietHighs()
-        self._highs.setOptionValue("threads", 1)
-        for option in ("primal_feasibility_tolerance", "dual_feasibility_tolerance"):
-            self._highs.setOptionValue(option, 1e-9)
-        none, zero = np.zeros(0, dtype=np.int32), np.zeros(rows)
-        starts = np.zeros(rows, dtype=np.int32)
-        self._highs.addRows(rows, zero, zero, 0, starts, none, np.zeros(0))
-        infinite = np.full(columns, highspy.kHighsInf)
-        where = (g.indptr[:-1].astype(np.int32), g.indices.astype(np.int32))
-        cost = np.zeros(columns)
-        self._highs.addCols(columns, cost, cost, infinite, len(g.data), *where, g.data)
+        self._rows = np.arange(len(g.applied), dtype=np.int32)
+        self._highs = balance(g, np.zeros(len(g.applied)))
 
     def stands(self, gravity: tuple[float, float]) -> bool:
         """Under gravity alone, m/s^2."""
@@ -67,26 +90,8 @@ def factors(
     """(least, greatest); infinite without a limit, (nan, nan) where no factor stands."""
     g = _core.generators(scene._core, cones)
     unit = np.abs(g.applied).max() or 1.0
-    highs = QuietHighs()
-    highs.setOptionValue("threads", 1)  # as everywhere: HiGHS has one pool for a process
-    for option in ("primal_feasibility_tolerance", "dual_feasibility_tolerance"):
-        highs.setOptionValue(option, 1e-9)
-    none = np.zeros(0, dtype=np.int32)
-    rows = len(g.applied)
-    right = -g.applied / unit
-    highs.addRows(rows, right, right, 0, np.zeros(rows, dtype=np.int32), none, np.zeros(0))
     columns = len(g.indptr) - 1
-    infinite = np.full(columns, highspy.kHighsInf)
-    highs.addCols(
-        columns,
-        np.zeros(columns),
-        np.zeros(columns),
-        infinite,
-        len(g.data),
-        g.indptr[:-1].astype(np.int32),
-        g.indices.astype(np.int32),
-        g.data,
-    )
+    highs = balance(g, -g.applied / unit)
     at = np.flatnonzero(push).astype(np.int32)
     highs.addCol(0.0, -highspy.kHighsInf, highspy.kHighsInf, len(at), at, push[at] / unit)
     found = []

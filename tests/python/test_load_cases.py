@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import math
 from typing import Any
 
@@ -10,22 +9,9 @@ import numpy as np
 import pytest
 
 import drystone as ds
+from limit_programs import case_of
 
 G = 9.81
-
-
-def loaded(scene: ds.Scene, loads: list[Any], factors: Any) -> ds.Scene:
-    """The scene of one case."""
-    case = copy.copy(scene)
-    for load, factor in zip(loads, factors, strict=True):
-        if isinstance(load, dict):
-            for name, force in load.items():
-                case.add_load(name, tuple(factor * np.asarray(force)))
-        else:
-            for body in scene.bodies:
-                force = factor * body.mass * np.asarray(load)
-                case.add_load(body.name, tuple(force), at=body.center_of_mass)
-    return case
 
 
 def some_loads(scene: ds.Scene, random: np.random.Generator, space: bool) -> list[Any]:
@@ -58,7 +44,7 @@ def test_cases_beside_verdicts(seed: int) -> None:
     assert cases.decided.all()
     assert 0 < cases.stands.sum() < 60
     assert cases.solved < 40
-    verdicts = [ds.check(loaded(scene, loads, row)).stable for row in factors]
+    verdicts = [ds.check(case_of(scene, loads, row)).stable for row in factors]
     assert cases.stands.tolist() == verdicts
 
 

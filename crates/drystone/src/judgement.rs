@@ -113,7 +113,6 @@ pub(crate) fn proves_fall(
     closing_share: f64,
 ) -> bool {
     let components = assembly.components();
-    let fastest = moving.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(assembly.speed(*block, a)));
     let (mut power, mut bound, mut closing) = (0.0, 0.0, 0.0_f64);
     for (block, acceleration) in moving {
         for (&k, load) in components.iter().zip(assembly.applied(*block)) {
@@ -126,7 +125,7 @@ pub(crate) fn proves_fall(
         closing = closing.max(-opening);
         bound += ROUNDING * forces[j].max(0.0) * size;
     }
-    closing <= closing_share * fastest && power > MARGIN * bound
+    closing <= closing_share * assembly.fastest(moving) && power > MARGIN * bound
 }
 
 /// Largest acceleration of a point of a block, as a share of what its own loads give it: of gravity where it has no others, of

@@ -43,6 +43,7 @@ pub mod strong;
 pub mod structure;
 mod suggest;
 mod takedown;
+mod threads;
 pub mod unsupported;
 
 pub use any_scene::AnyScene;

@@ -65,7 +65,7 @@ pub(crate) fn power_of_fall(
 ) -> f64 {
     let mut of = vec![None; assembly.blocks()];
     accelerations.iter().for_each(|(block, acceleration)| of[*block] = Some(acceleration));
-    let fastest = accelerations.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(assembly.speed(*block, a)));
+    let fastest = assembly.fastest(accelerations);
     let (mut power, mut bound) = (0.0, 0.0);
     for (block, acceleration) in accelerations {
         for (&k, load) in assembly.components().iter().zip(assembly.applied(*block)) {
@@ -129,13 +129,12 @@ pub(crate) fn closing(
 ) -> f64 {
     let mut of = vec![None; assembly.blocks()];
     motion.iter().for_each(|(block, velocity)| of[*block] = Some(velocity));
-    let fastest = motion.iter().fold(0.0_f64, |fastest, (block, v)| fastest.max(assembly.speed(*block, v)));
     let closes = |force: &ContactForce| {
         let contact = &assembly.contacts()[force.contact];
         -opening(assembly, contact, relative_motion(assembly, contact, &of).0, cone)
     };
     let most = forces.iter().map(closes).fold(0.0, f64::max);
-    if most > 0.0 { most / fastest } else { 0.0 }
+    if most > 0.0 { most / assembly.fastest(motion) } else { 0.0 }
 }
 
 /// The fastest point of what Newton's and Euler's law leaves unexplained of the accelerations of blocks, m/s^2.

@@ -50,6 +50,16 @@ impl Start {
         (0..k).all(holds).then_some(Self { indices: active.to_vec(), z })
     }
 
+    /// z of a complete problem of n rows: zero on those that the sub-problem does not have.
+    ///
+    /// # Panics
+    /// If an index is not below n.
+    pub fn spread(&self, n: usize) -> Vec<f64> {
+        let mut z = vec![0.0; n];
+        self.indices.iter().zip(&self.z).for_each(|(&row, &value)| z[row] = value);
+        z
+    }
+
     /// Checks what can be checked without the matrix.
     ///
     /// # Errors

@@ -215,6 +215,8 @@ def plan(
 
     SCENE may be a folder of scene files. Each of them is planned; what is finished is not repeated.
     """
+    if not clear_path and (moves > 1 or together > 1 or obstacles is not None):
+        raise InputError("--moves, --together and --obstacles are for --clear-path")
     if Path(scene).is_dir():
         from drystone.cli import plan_many
 

@@ -52,8 +52,6 @@ def run(
     obstacles: str | None,
 ) -> int:
     """0 if an order was found, 1 if not."""
-    if not clear_path and (moves > 1 or together > 1 or obstacles is not None):
-        raise InputError("--moves, --together and --obstacles are for --clear-path")
     if (strong or margin or order != "any") and (hold or test != "reuse"):
         raise InputError(
             "--margin, --order robust and --strong go with --test reuse, without --hold"

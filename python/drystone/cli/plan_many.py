@@ -52,8 +52,6 @@ def run(
         raise InputError(f"{folder} is a folder: say with -o into which folder its plans go")
     if output.resolve() == folder.resolve():
         raise InputError(f"{output}: plans go into another folder than the scenes")
-    if not clear_path and (moves > 1 or together > 1 or obstacles is not None):
-        raise InputError("--moves, --together and --obstacles are for --clear-path")
     in_the_way = None if obstacles is None else load_scene(obstacles)
     try:
         # Ray tells of lost machines on standard output, which is for the answer.

@@ -48,7 +48,7 @@ class Settings:
             raise ValueError(
                 "directions must all have two numbers, for scenes in the plane, or three, in space"
             )
-        dimensions = self._dimensions()
+        dimensions = self._dimensions(self._obstacles())
         if len(set(dimensions.values())) > 1:
             raise ValueError("directions and obstacles are not of the same dimension")
         flat = Scene._of(_core.Scene.built_in("column", {"n": 1}))
@@ -57,10 +57,9 @@ class Settings:
                 self.plan(scene, None)
         return self
 
-    def _dimensions(self) -> dict[str, int]:
+    def _dimensions(self, obstacles: Scene | None) -> dict[str, int]:
         """Of what is for scenes in the plane, or in space, only."""
         ways = {"directions": len(self.directions[0])} if self.directions else {}
-        obstacles = self._obstacles()
         return ways if obstacles is None else {**ways, "obstacles": obstacles.dimension}
 
     def _obstacles(self) -> Scene | None:
@@ -70,7 +69,8 @@ class Settings:
 
     def plan(self, scene: Scene, progress: Progress | None) -> Plan:
         """The plan of `scene` under these settings."""
-        for what, dimension in self._dimensions().items():
+        obstacles = self._obstacles()
+        for what, dimension in self._dimensions(obstacles).items():
             if dimension != scene.dimension:
                 raise _core.SceneError(
                     f"{what} have {dimension} dimensions, and this scene {scene.dimension}: "
@@ -91,7 +91,7 @@ class Settings:
             order=self.order,
             moves=self.moves,
             together=self.together,
-            obstacles=self._obstacles(),
+            obstacles=obstacles,
             facets=self.facets,
             cone=self.cone,
         )

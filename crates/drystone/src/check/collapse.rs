@@ -41,9 +41,9 @@ fn virtual_motion(assembly: &Assembly, blocks: &BlockSet, equilibrium: &ConeSolv
 
 /// How fast generators close in a motion at most, as a share of the fastest point.
 fn closing_share(assembly: &Assembly, blocks: &BlockSet, motion: &[(usize, Components)]) -> f64 {
-    let fastest = motion.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(assembly.speed(*block, a)));
     let opening = |j: usize| assembly.opening(&assembly.generators()[j], motion).0;
-    assembly.rows(blocks).into_iter().map(opening).fold(0.0_f64, |closing, opening| closing.max(-opening)) / fastest
+    assembly.rows(blocks).into_iter().map(opening).fold(0.0_f64, |closing, opening| closing.max(-opening))
+        / assembly.fastest(motion)
 }
 
 #[cfg(test)]

@@ -78,21 +78,8 @@ impl Assembly {
 
     /// The generator whose contact closes most, if it does by more than rounding of 64-bit numbers.
     fn closing(&self, rows: &[usize], motion: &[(usize, Components)]) -> Option<usize> {
-        let of =
-            |block: usize| motion.binary_search_by_key(&block, |moving| moving.0).ok().map(|place| motion[place].1);
-        let speed = |j: usize| {
-            let (mut opening, mut size) = (0.0, 0.0);
-            for wrench in self.wrenches(&self.generators()[j]) {
-                let Some(acceleration) = of(wrench.block) else { continue };
-                for &k in self.components() {
-                    opening += wrench.value[k] * acceleration[k];
-                    size += (wrench.value[k] * acceleration[k]).abs();
-                }
-            }
-            (opening, size)
-        };
-        let speeds: Vec<(f64, f64)> = rows.iter().map(|&j| speed(j)).collect();
-        let fastest = motion.iter().fold(0.0_f64, |fastest, (block, a)| fastest.max(self.speed(*block, a)));
+        let speeds: Vec<(f64, f64)> = rows.iter().map(|&j| self.opening(&self.generators()[j], motion)).collect();
+        let fastest = self.fastest(motion);
         let closes = |(_, (opening, size)): &(&usize, &(f64, f64))| {
             -opening > CLOSING * fastest && -opening > CLOSING_OF_TERMS * size
         };
@@ -103,6 +90,11 @@ impl Assembly {
     /// Of the fastest point of a block, or a little less.
     pub(crate) fn speed(&self, block: usize, &[x, y, z, ref turning @ ..]: &Components) -> f64 {
         length([x, y, z]).max(length(*turning) * self.body(block).radius)
+    }
+
+    /// Of the fastest point of all blocks that move, or a little less.
+    pub(crate) fn fastest(&self, motion: &[(usize, Components)]) -> f64 {
+        motion.iter().fold(0.0, |fastest, (block, velocity)| fastest.max(self.speed(*block, velocity)))
     }
 
     /// How fast a generator's contact opens in a motion (blocks ascending), and the size of the terms of that.

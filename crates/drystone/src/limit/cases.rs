@@ -6,7 +6,6 @@
 //! itself, and adds one or the other.
 
 use super::{
-    at_once::at_once,
     centre::{Centre, Centres},
     fall::Fall,
     interior::end,
@@ -16,6 +15,7 @@ use crate::{
     formulate::{Assembly, BlockSet, Constrained, FrictionCone, Push},
     interrupt::poll,
     proof::proved,
+    threads::at_once,
 };
 use drystone_lcp::{Status, interior::End};
 use std::sync::Arc;
@@ -114,10 +114,7 @@ impl Answering<'_> {
         let (asked, centres) = (self.asked, &self.centres);
         let look =
             |k: usize| asked.look(&factors[k], centres.as_ref().and_then(|centres| centres.nearest(&factors[k])));
-        let told: Vec<Told> = match some {
-            [one, other] => at_once(true, || look(*one), || look(*other)).into(),
-            _ => some.iter().map(|&k| look(k)).collect(),
-        };
+        let told = at_once(some.iter().copied(), look);
         for (&k, told) in some.iter().zip(told) {
             self.solved += 1;
             self.stands[k] = told.stands;

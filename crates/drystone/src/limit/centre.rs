@@ -71,7 +71,7 @@ impl<'a> Centres<'a> {
                 let range = first..first + point.cone.unknowns();
                 first = range.end;
                 own.extend(range.map(|k| sum(centre.forces[k], k, &centre.changes)));
-                is_inside(&point.cone, &own)
+                gaps_are(&point.cone, &own, |gap| gap >= 0.0)
             });
             inside && centre.left.iter().enumerate().map(moves).all(|speed| speed <= AT_REST * weighing)
         })
@@ -106,10 +106,11 @@ impl<'a> Centres<'a> {
     }
 }
 
-fn is_inside(cone: &Cone, f: &[f64]) -> bool {
+/// Whether what is left between forces and the borders of their cone, N, is as said.
+fn gaps_are(cone: &Cone, f: &[f64], said: impl Fn(f64) -> bool) -> bool {
     match cone {
-        Cone::Edges(_) => f.iter().all(|f| *f >= 0.0),
-        Cone::Round { friction } => f[1].hypot(f[2]) <= friction * f[0],
+        Cone::Edges(_) => f.iter().all(|f| said(*f)),
+        Cone::Round { friction } => said(friction * f[0] - f[1].hypot(f[2])),
     }
 }
 
@@ -119,10 +120,7 @@ fn inside(problem: &Gauss, forces: &[f64]) -> bool {
     problem.points.iter().all(|point| {
         let own = &forces[first..first + point.cone.unknowns()];
         first += own.len();
-        match &point.cone {
-            Cone::Edges(_) => own.iter().all(|f| *f > 0.0),
-            Cone::Round { friction } => own[1].hypot(own[2]) < friction * own[0],
-        }
+        gaps_are(&point.cone, own, |gap| gap > 0.0)
     })
 }
 

@@ -1,7 +1,6 @@
 //! By the interior-point method: many blocks, or round cones.
 
 use super::{
-    at_once::at_once,
     ends::{End, Limit},
     walk,
 };
@@ -11,6 +10,7 @@ use crate::{
     formulate::{Assembly, BlockSet, Constrained, FrictionCone, Push},
     judgement::{CLOSING, MARGIN},
     proof::{moving, power_of_fall},
+    threads::at_once,
 };
 use drystone_lcp::{Counts, Status};
 
@@ -26,7 +26,10 @@ pub(super) fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: F
         let mut iterations = 0;
         (end(assembly, blocks, push, cone, sign, &mut iterations), iterations)
     };
-    let found = at_once(blocks.len() >= WORTH_A_THREAD, || towards(1.0), || towards(-1.0));
+    let signs = [1.0, -1.0];
+    let large = blocks.len() >= WORTH_A_THREAD;
+    let found = if large { at_once(signs, towards) } else { signs.map(towards).into() };
+    let found: [_; 2] = found.try_into().expect("one for each sign");
     let mut iterations = found.iter().map(|(_, iterations)| iterations).sum();
     let mut ends = found.map(|(end, _)| end);
     if let [Ok(upper), Ok(lower)] = &ends {

@@ -10,7 +10,6 @@
 //! slides also opens; see docs/theory/limit-loads.md.
 
 mod accelerated;
-mod at_once;
 mod cases;
 mod centre;
 mod ends;

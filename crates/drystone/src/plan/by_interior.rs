@@ -75,12 +75,12 @@ fn falls_nearby(assembly: &Assembly, touching: &Touching, put: Put<'_>) -> Optio
 
 /// How some blocks fall, those that are held left out, while all others stay where they are.
 pub(super) fn falls_among(assembly: &Assembly, touching: &Touching, put: Put<'_>, some: &[usize]) -> Option<Collapse> {
-    let (mut there, mut still) = (BlockSet::empty(assembly.blocks()), BlockSet::empty(assembly.blocks()));
+    let mut still = BlockSet::empty(assembly.blocks());
     let moving: Vec<usize> = some.iter().copied().filter(|block| !put.held.contains(block)).collect();
     let around = moving.iter().flat_map(|&block| touching.neighbours(block)).copied();
     around.filter(|&block| put.blocks.contains(block)).for_each(|block| still.insert(block));
     moving.iter().for_each(|&block| still.remove(block));
-    there.union_with(&still);
+    let mut there = still.clone();
     moving.iter().for_each(|&block| there.insert(block));
     let still: Vec<usize> = still.iter().collect();
     if moving.is_empty() { None } else { solved(assembly, &there, &still, None)?.tested.collapse }

@@ -312,7 +312,8 @@ impl StabilityTest for Holding<'_> {
         }
         self.falls = self.falls_still(added);
         self.forces.clear();
-        if self.hard {
+        if self.hard && !self.falls.is_empty() {
+            // Otherwise it is asked first below.
             let put = Put { blocks, held: &[], added };
             self.fell = falls_among(self.assembly, &self.touching, put, &[added]);
             self.learn(&[]);

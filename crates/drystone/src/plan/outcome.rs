@@ -4,11 +4,8 @@ use super::{
     clear_path::{Blocked, ClearPath, Moves},
     stability::TestOutcome,
 };
-use crate::{check::Verdict, interrupt::Interrupt};
-use std::{
-    thread,
-    time::{Duration, Instant},
-};
+use crate::{check::Verdict, interrupt::Interrupt, threads::available};
+use std::time::{Duration, Instant};
 
 /// Budgets of a search, without which it goes on to the end, and how it goes about it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +47,7 @@ impl Limits {
 
     /// Threads to use.
     pub fn threads(&self) -> usize {
-        self.threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, Into::into))
+        self.threads.unwrap_or_else(available)
     }
 }
 

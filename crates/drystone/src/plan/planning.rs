@@ -111,25 +111,12 @@ fn plan_strong<S: Assemble>(
     limits: Limits,
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
-    let start = Instant::now();
     if conditions.hold > 0 {
         return Err(refused("hold", conditions.hold.to_string(), "0 where every structure must stand").into());
     }
     let blocks = assembly.every_block();
     let whole = || strong(assembly, &blocks, BUDGET, &mut |_| true).expect("nobody stops it").must_stand;
-    let outcome = match limits.interrupt(start).run(whole) {
-        None => return Ok(Plan::stopped(limits.stopped(start), start.elapsed())),
-        Some(None) => Outcome::Undecided,
-        Some(Some(false)) => Outcome::WholeFalls,
-        Some(Some(true)) => {
-            let mut test = MustStand::new(assembly);
-            let mut plan = plan_with_under(scene, assembly, &mut test, conditions, limits.after(start), monitor)?;
-            plan.total = start.elapsed();
-            return Ok(plan);
-        }
-    };
-    let whole = Some(check_blocks(assembly, &blocks));
-    Ok(Plan { whole, ..Plan::stopped(outcome, start.elapsed()) })
+    plan_asking_more(scene, assembly, (whole, || MustStand::new(assembly)), conditions, limits, monitor)
 }
 
 /// [`plan_assembly_under`] by [`Test::Reuse`], where every structure has to have a margin.
@@ -150,24 +137,40 @@ fn plan_with_margin<S: Assemble>(
     if conditions.strong {
         return Err(refused("strong", true.to_string(), "false where there is a margin").into());
     }
-    let stopped = || Ok(Plan::stopped(limits.stopped(start), start.elapsed()));
     let Some(cases) = limits.interrupt(start).run(|| accelerated(assembly, scene, conditions.margin)) else {
-        return stopped();
+        return Ok(Plan::stopped(limits.stopped(start), start.elapsed()));
     };
     let (cases, blocks) = (cases?, assembly.every_block());
-    let whole = || cases.iter().all(|case| check_blocks(case, &blocks).stable);
-    match limits.interrupt(start).run(whole) {
-        None => return stopped(),
-        Some(true) => {}
-        Some(false) => {
-            let whole = Some(check_blocks(assembly, &blocks));
-            return Ok(Plan { whole, ..Plan::stopped(Outcome::WholeFalls, start.elapsed()) });
-        }
-    }
-    let mut test = UnderEach::new(&cases);
-    let mut plan = plan_with_under(scene, assembly, &mut test, conditions, limits.after(start), monitor)?;
+    let whole = || Some(cases.iter().all(|case| check_blocks(case, &blocks).stable));
+    let asked = (whole, || UnderEach::new(&cases));
+    let mut plan = plan_asking_more(scene, assembly, asked, conditions, limits.after(start), monitor)?;
     plan.total = start.elapsed();
     Ok(plan)
+}
+
+/// Plans where structures have to do more than to be able to stand: whether the complete one does, None if that is not decided, and
+/// the test of the others, made if it does.
+fn plan_asking_more<S: Assemble, T: StabilityTest>(
+    scene: &SceneOf<S>,
+    assembly: &Assembly,
+    (whole, test): (impl FnOnce() -> Option<bool>, impl FnOnce() -> T),
+    conditions: &Conditions,
+    limits: Limits,
+    monitor: &mut dyn Monitor,
+) -> Result<Plan, PlanError> {
+    let start = Instant::now();
+    let outcome = match limits.interrupt(start).run(whole) {
+        None => return Ok(Plan::stopped(limits.stopped(start), start.elapsed())),
+        Some(None) => Outcome::Undecided,
+        Some(Some(false)) => Outcome::WholeFalls,
+        Some(Some(true)) => {
+            let mut plan = plan_with_under(scene, assembly, &mut test(), conditions, limits.after(start), monitor)?;
+            plan.total = start.elapsed();
+            return Ok(plan);
+        }
+    };
+    let whole = Some(check_blocks(assembly, &assembly.every_block()));
+    Ok(Plan { whole, ..Plan::stopped(outcome, start.elapsed()) })
 }
 
 /// Plans with a test by name, whose setting up counts, and within what that leaves of the limits.
@@ -226,13 +229,8 @@ pub fn plan_with_under<S: Assemble>(
     monitor: &mut dyn Monitor,
 ) -> Result<Plan, PlanError> {
     if conditions.hold > MOST_HANDS {
-        return Err(SceneError::BadParameter {
-            scene: "plan".into(),
-            parameter: "hold".into(),
-            found: conditions.hold.to_string(),
-            expected: format!("at most {MOST_HANDS} blocks held at a time"),
-        }
-        .into());
+        let expected = format!("at most {MOST_HANDS} blocks held at a time");
+        return Err(refused("hold", conditions.hold.to_string(), &expected).into());
     }
     let Some(clear) = &conditions.clear_path else {
         return search_under(assembly, test, conditions.hold, None, limits, monitor);

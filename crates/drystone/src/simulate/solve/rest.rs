@@ -56,8 +56,7 @@ pub fn stay_at_rest<S: Kinematics>(
         *work = *work + decision.work;
         decision.start?
     };
-    let mut p = vec![0.0; contacts.len()];
-    start.indices.iter().zip(&start.z).for_each(|(&row, &z)| p[row] = z);
+    let p = start.spread(contacts.len());
     let mut velocities = contacts.velocities(&free, &state.inverse_mass, |row| p[row]);
     let residual = residual(state, &StepProblem { free: &free, ..*step }, &velocities, &p);
     // Beside large impulses a residual that may stand could still move a small body.
@@ -97,8 +96,7 @@ fn touching<S: Kinematics>(state: &State<S>, contacts: &ContactProblem<S>) -> Ve
 /// The impulses of the step before, if each of its contacts that bears is still there.
 fn same_impulses<S: Kinematics>(previous: &PreviousStep<S>, contacts: &ContactProblem<S>) -> Option<Start> {
     let (before, solution) = previous.problem.as_ref().zip(previous.at_rest.as_ref())?;
-    let mut p = vec![0.0; before.len()];
-    solution.start.indices.iter().zip(&solution.start.z).for_each(|(&row, &z)| p[row] = z);
+    let p = solution.start.spread(before.len());
     let mut start = Start { indices: Vec::new(), z: Vec::new() };
     for (k, old) in contacts.matches(before) {
         let Some(old) = old else { continue };
@@ -135,8 +133,7 @@ pub fn start_from_interior<S: Kinematics>(
 /// Another solution of a step at rest, from one in which the rows that bear depend on one another, as those of a load takedown
 /// do: by the interior-point method, so that they do not. None if it leads to none.
 pub fn other_start<S: Kinematics>(state: &State<S>, contacts: &ContactProblem<S>, start: &Start) -> Option<Start> {
-    let mut p = vec![0.0; contacts.len()];
-    start.indices.iter().zip(&start.z).for_each(|(&row, &z)| p[row] = z);
+    let p = start.spread(contacts.len());
     // What would move the bodies is what these impulses take up.
     let at_rest = vec![S::Velocity::default(); state.inverse_mass.len()];
     let mut free = contacts.velocities(&at_rest, &state.inverse_mass, |row| p[row]);

@@ -27,8 +27,7 @@ impl<'a> Known<'a> {
     pub fn new(problem: &'a Problem, start: &'a Start, settings: &'a Settings) -> Result<Self, LcpError> {
         start.require_well_formed(problem.len())?;
         let scaling = Scaling::new(problem);
-        let mut z = vec![0.0; problem.len()];
-        start.indices.iter().zip(&start.z).for_each(|(&i, &value)| z[i] = value);
+        let mut z = start.spread(problem.len());
         let w: Vec<f64> = problem.w(&z).iter().zip(&scaling.d).map(|(w, d)| w * d).collect();
         z.iter_mut().zip(&scaling.d).for_each(|(z, d)| *z /= d);
         let q_size = start.indices.iter().fold(0.0, |size: f64, &i| size.max((scaling.d[i] * problem.q()[i]).abs()));
