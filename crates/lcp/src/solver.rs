@@ -442,7 +442,7 @@ impl Solver {
                 return Ok(Some(Status::PivotLimit));
             }
             let Some(repair) = repairs.next() else { return self.last_resort().map(Some) };
-            if matches!(repair, Repair::Finer) && self.certify_among_all()? {
+            if matches!(repair, Repair::Finer) && self.certify_in_null_space()? {
                 return Ok(Some(Status::NoSolution));
             }
             self.repair(*repair);

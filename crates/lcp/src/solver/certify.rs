@@ -1,7 +1,7 @@
 //! A certificate looked for among all vectors, where pivots met none.
 //!
-//! First among those that M maps to zero but for rounding: where columns of M agree but for their last digits, no basis has them.
-//! Then among all:
+//! After the first attempts among those that M maps to zero but for rounding: where columns of M agree but for their last digits, no
+//! basis has them. At the very end among all:
 //!
 //! ```text
 //! z >= 0, w >= 0 with (-M, I) (z, w) = q,   or y >= 0 with M' y <= 0 and q' y < 0   (Farkas: exactly one of them exists)
@@ -24,20 +24,16 @@ use crate::{
 use faer::Mat;
 
 impl Solver {
-    /// Keeps a certificate, if there is one. True if it is a clear one.
-    ///
-    /// # Errors
-    /// [`LcpError::MatrixNotFinite`] or [`LcpError::VectorNotFinite`], if scaling made an entry too large.
-    pub(super) fn certify_among_all(&mut self) -> Result<bool, LcpError> {
-        let rows = self.rows();
-        Ok(rows.len() <= LARGEST_DENSE && (self.certify_in_null_space(&rows)? || self.certify_by_simplex(&rows)?))
-    }
-
     /// Looks for a certificate among all vectors that M maps to zero, N the basis of these: the projection y of -q onto the cone
     /// of those that are not negative. By Moreau's theorem `q'y = -y'y`, so there is none if y = 0. It is `y = N N' (x - q)`
     /// where x >= 0 and y >= 0 are complementary: a problem with the matrix of a projection, whatever M is.
-    fn certify_in_null_space(&mut self, rows: &[usize]) -> Result<bool, LcpError> {
-        let Some(null) = self.null_space(rows).filter(|null| null.ncols() > 0) else { return Ok(false) };
+    /// True if a clear one was found, and kept.
+    ///
+    /// # Errors
+    /// [`LcpError::VectorNotFinite`], if scaling made an entry too large.
+    pub(super) fn certify_in_null_space(&mut self) -> Result<bool, LcpError> {
+        let rows = self.rows();
+        let Some(null) = self.null_space(&rows).filter(|null| null.ncols() > 0) else { return Ok(false) };
         let q = Mat::from_fn(rows.len(), 1, |i, _| self.load.scaled[rows[i]]);
         let projection = &null * null.transpose();
         let image = &projection * &q;
@@ -52,16 +48,23 @@ impl Solver {
         Ok(self.take_certificate(&y))
     }
 
-    /// An orthonormal basis of the vectors that M maps to zero but for rounding.
+    /// An orthonormal basis of the vectors that M maps to zero but for rounding. None if it is too large to look.
     fn null_space(&self, rows: &[usize]) -> Option<Mat<f64>> {
+        if rows.len() > LARGEST_DENSE {
+            return None;
+        }
         let eigen = self.eigen(rows)?;
         let rounding = EIGENVALUE_ROUNDING * rows.len() as f64;
         let null: Vec<usize> = (0..rows.len()).filter(|&k| eigen.S().column_vector()[k].abs() <= rounding).collect();
         Some(Mat::from_fn(rows.len(), null.len(), |i, k| eigen.U()[(i, null[k])]))
     }
 
-    /// Asks whether q is in the cone of the columns of (-M, I).
-    fn certify_by_simplex(&mut self, rows: &[usize]) -> Result<bool, LcpError> {
+    /// Asks whether q is in the cone of the columns of (-M, I). True if a clear certificate was found, and kept. Far slower than an
+    /// attempt where 32 digits are needed.
+    ///
+    /// # Errors
+    /// [`LcpError::MatrixNotFinite`] or [`LcpError::VectorNotFinite`], if scaling made an entry too large.
+    pub(super) fn certify_by_simplex(&mut self, rows: &[usize]) -> Result<bool, LcpError> {
         let q: Vec<f64> = rows.iter().map(|&i| self.load.scaled[i]).collect();
         let mut cone = ConeSolver::new(self.columns_with_slacks(rows)?, &q, &vec![1.0; rows.len()])?;
         cone.add_rows(&(0..rows.len()).collect::<Vec<_>>());

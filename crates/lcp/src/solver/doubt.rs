@@ -57,7 +57,7 @@ impl Solver {
             return Some(Status::Solved);
         }
         let z = self.z.clone();
-        if self.take_certificate(&z) || self.certify_among_all().unwrap_or(false) {
+        if self.take_certificate(&z) || self.certify_in_null_space().unwrap_or(false) {
             return Some(Status::NoSolution);
         }
         if self.residual * z_size <= LITTLE * self.q_size {
@@ -76,7 +76,8 @@ impl Solver {
         certificate.is_clear
     }
 
-    /// No attempt had an answer. Lemke's method may have one; else it is what was doubtful, or M has a negative eigenvalue.
+    /// No attempt had an answer. Lemke's method may have one; else it is what was doubtful, or M has a negative eigenvalue, or there
+    /// is a certificate that no pivot meets.
     ///
     /// # Errors
     /// [`LcpError::NotSemidefinite`].
@@ -98,10 +99,17 @@ impl Solver {
             self.take_values(&z);
             return Ok(Status::Solved);
         }
-        if dense {
-            self.require_no_negative_eigenvalue(&rows)?;
+        if !dense {
+            return Ok(Status::NumericalTrouble);
         }
-        Ok(Status::NumericalTrouble)
+        self.require_no_negative_eigenvalue(&rows)?;
+        if self.settings.pivot_limit.is_some() {
+            return Ok(Status::NumericalTrouble);
+        }
+        if !self.certify_by_simplex(&rows)? {
+            self.ray = self.doubtful.ray.take();
+        }
+        Ok(if self.ray.is_some() { Status::NoSolution } else { Status::NumericalTrouble })
     }
 
     fn ask_lemke(&mut self, rows: &[usize]) -> Result<Option<Status>, LcpError> {
