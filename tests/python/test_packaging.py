@@ -81,6 +81,21 @@ def test_all_and_dev_hold_the_other_extras() -> None:
         assert set(extras[extra]) <= set(extras["dev"]), extra
 
 
+def test_the_package_for_compas_is_apart() -> None:
+    """It needs drystone, not the reverse; its version is written twice, its licences are ours."""
+    folder = ROOT / "compas_drystone"
+    project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
+    init = (folder / "src/compas_drystone/__init__.py").read_text()
+    assert f'__version__ = "{project["version"]}"' in init
+    assert any(need.startswith("drystone") for need in project["dependencies"])
+    extras = _project()["optional-dependencies"].values()
+    assert "compas" not in repr([_project()["dependencies"], *extras])
+    for name in ("LICENSE-MIT", "LICENSE-APACHE"):
+        assert (folder / name).read_text() == (ROOT / name).read_text()
+    address = _workspace()["package"]["repository"]
+    assert project["urls"]["Repository"] == address
+
+
 def test_a_checkout_without_pages_is_not_packed(tmp_path: Path) -> None:
     backend = _script("backend")
     for name in backend.MADE:
