@@ -1,96 +1,96 @@
 //! `I + J' D J`: one block for each body and one for each pair that touches; factored by Cholesky's method.
 //!
-//! The order is found once, on the graph of the bodies (approximate minimum degree; Amestoy, Davis and Duff 1996), and with it
-//! where the factor has entries. Both come from faer, and so does the numerical factor, by supernodes.
+//! The order is found once, on the graph of the bodies (approximate minimum degree, by faer; Amestoy, Davis and Duff 1996), and with
+//! it where the factor has entries.
 
-use super::scaled::{Scaled, ScaledPoint};
+use super::{
+    block_cholesky::BlockCholesky,
+    blocks::{Block, Pattern},
+    scaled::{Scaled, ScaledPoint},
+    supernodes::Supernodes,
+};
 use crate::interrupt::{apart, poll};
 use faer::{
-    Conj, MatMut, Par, Side,
-    dyn_stack::{MemBuffer, MemStack, StackReq},
-    sparse::{
-        SparseColMatRef, SymbolicSparseColMatRef,
-        linalg::{
-            SupernodalThreshold, amd,
-            cholesky::{
-                CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
-            },
-        },
-    },
+    dyn_stack::{MemBuffer, MemStack},
+    sparse::{SymbolicSparseColMatRef, linalg::amd},
 };
 
-/// Operations for each entry of the factor, in units of faer's own bound, above which its columns are taken together. Measured:
-/// arches and random stacks are faster column by column; pyramids, walls and domes twice as fast together, from 0.3 on.
-const SUPERNODAL: f64 = 0.3;
-
-/// The matrix, by its upper triangle, and its factor.
+/// The matrix by its lower triangle, and its factor.
 pub(super) struct BodyMatrix<const B: usize> {
     /// Place of each body in the order of elimination.
     place: Vec<usize>,
-    starts: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
-    /// For each point, and each pair of its bodies, where the block between the two lies, counted in blocks from the top of the
-    /// later one's columns.
+    diagonal: Vec<Block<B>>,
+    below: Vec<Block<B>>,
+    /// For each point, and each pair of its bodies, the block between the two.
     between: Vec<usize>,
-    symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
-    memory: MemBuffer,
-    right: Vec<f64>,
+    factor: Factor<B>,
+    right: Vec<[f64; B]>,
+}
+
+enum Factor<const B: usize> {
+    Blocks(BlockCholesky<B>),
+    Supernodes(Box<Supernodes<B>>),
+}
+
+/// Products of blocks for each block of the factor, times the rows of a block, above which supernodes take less time. Measured:
+/// with 20 products of 3 rows (a wall of 60 x 60) both take as long, with 11 of 6 rows supernodes take a fifth less, with 6
+/// a fifth more.
+const SUPERNODAL: usize = 60;
+
+impl<const B: usize> Factor<B> {
+    /// For a matrix of this pattern. None if there is no memory.
+    fn of(matrix: Pattern) -> Option<Self> {
+        let pattern = BlockCholesky::<B>::pattern_of(&matrix);
+        if pattern.products() * B <= SUPERNODAL * (pattern.len() + pattern.columns()) {
+            return Some(Self::Blocks(BlockCholesky::new(&matrix, pattern)));
+        }
+        Supernodes::new(matrix).map(|factor| Self::Supernodes(Box::new(factor)))
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Blocks(factor) => factor.len(),
+            Self::Supernodes(factor) => factor.len(),
+        }
+    }
 }
 
 impl<const B: usize> BodyMatrix<B> {
     /// Analyses the pattern. None if there is no memory for it.
     pub fn new<const D: usize, const N: usize>(problem: &Scaled<B, D, N>) -> Option<Self> {
-        let (size, bodies) = (B, problem.load.len());
+        let bodies = problem.load.len();
         let place = order(problem)?;
-        let mut above: Vec<Vec<usize>> = vec![Vec::new(); bodies];
+        let mut below: Vec<Vec<u32>> = vec![Vec::new(); bodies];
         for point in &problem.points {
-            for (upper, lower) in pairs(point, &place).flatten() {
-                above[lower].push(upper);
+            for (earlier, later) in pairs(point, &place).flatten() {
+                below[earlier].push(later as u32);
             }
         }
-        above.iter_mut().for_each(|above| {
-            above.sort_unstable();
-            above.dedup();
-        });
+        let mut pattern = Pattern::default();
+        for below in &mut below {
+            below.sort_unstable();
+            below.dedup();
+            pattern.push(below);
+        }
         let found = problem.points.iter().flat_map(|point| pairs(point, &place));
         let between = found.map(|pair| {
-            let (upper, lower) = pair?;
-            above[lower].binary_search(&upper).ok()
+            let (earlier, later) = pair?;
+            let among = pattern.rows(earlier).binary_search(&(later as u32)).ok()?;
+            Some(pattern.start(earlier) + among)
         });
         let between = between.map(Option::unwrap_or_default).collect();
-        let (mut starts, mut rows) = (vec![0], Vec::new());
-        for (body, above) in above.iter().enumerate() {
-            for k in 0..size {
-                rows.extend(above.iter().flat_map(|upper| upper * size..(upper + 1) * size));
-                rows.extend(body * size..=body * size + k);
-                starts.push(rows.len());
-            }
-        }
-        let n = bodies * size;
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &starts, None, &rows);
-        let ordering = SymmetricOrdering::Identity;
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold(SUPERNODAL),
-            ..Default::default()
-        };
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, ordering, parameters).ok()?;
-        let scratch = StackReq::or(
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default()),
-            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        );
-        let memory = MemBuffer::try_new(scratch).ok()?;
-        let (values, factor) = (vec![0.0; rows.len()], vec![0.0; symbolic.len_val()]);
-        Some(Self { place, starts, rows, values, between, symbolic, factor, memory, right: vec![0.0; n] })
+        let (diagonal, below) = (vec![[[0.0; B]; B]; bodies], vec![[[0.0; B]; B]; pattern.len()]);
+        let factor = Factor::of(pattern)?;
+        Some(Self { place, diagonal, below, between, factor, right: vec![[0.0; B]; bodies] })
     }
 
     /// Makes it diagonal, with the same number for all unknowns of a body.
     pub fn reset(&mut self, diagonal: impl Fn(usize) -> f64) {
-        self.values.fill(0.0);
-        for (body, place) in self.place.iter().enumerate() {
-            let value = diagonal(body);
-            self.starts[place * B + 1..][..B].iter().for_each(|&end| self.values[end - 1] = value);
+        self.below.fill([[0.0; B]; B]);
+        for (body, &place) in self.place.iter().enumerate() {
+            let mut own = [[0.0; B]; B];
+            (0..B).for_each(|k| own[k][k] = diagonal(body));
+            self.diagonal[place] = own;
         }
     }
 
@@ -104,24 +104,22 @@ impl<const B: usize> BodyMatrix<B> {
         let weighted = point.jacobian.each_ref().map(|jacobian| weighted(jacobian, weight));
         for (side, weighted) in weighted.iter().enumerate() {
             let Some(body) = point.body(side) else { continue };
-            let first = self.place[body] * B;
-            let block = block(&point.jacobian[side], weighted);
-            for (column, entries) in block.iter().enumerate() {
-                let end = self.starts[first + column + 1];
-                let own = &mut self.values[end - 1 - column..end];
-                own.iter_mut().zip(entries).for_each(|(value, entry)| *value += entry);
+            let own = &mut self.diagonal[self.place[body]];
+            for column in 0..B {
+                for (jacobian, weighted) in point.jacobian[side].iter().zip(weighted) {
+                    (column..B).for_each(|row| own[column][row] += jacobian[row] * weighted[column]);
+                }
             }
         }
         let first_pair = index * two_of(N).count();
         for (pair, [one, other]) in two_of(N).enumerate() {
             let (Some(a), Some(b)) = (point.body(one), point.body(other)) else { continue };
-            let (upper, lower) = if self.place[a] < self.place[b] { (one, other) } else { (other, one) };
-            let first = self.place[a].max(self.place[b]) * B;
-            let above = self.between[first_pair + pair] * B;
-            let block = block(&point.jacobian[upper], &weighted[lower]);
-            for (column, entries) in block.iter().enumerate() {
-                let own = &mut self.values[self.starts[first + column] + above..][..B];
-                own.iter_mut().zip(entries).for_each(|(value, entry)| *value += entry);
+            let (earlier, later) = if self.place[a] < self.place[b] { (one, other) } else { (other, one) };
+            let block = &mut self.below[self.between[first_pair + pair]];
+            for column in 0..B {
+                for (jacobian, weighted) in point.jacobian[later].iter().zip(&weighted[earlier]) {
+                    (0..B).for_each(|row| block[column][row] += jacobian[row] * weighted[column]);
+                }
             }
         }
     }
@@ -129,49 +127,31 @@ impl<const B: usize> BodyMatrix<B> {
     /// Factors it, with more on the diagonal if it is not positive definite to working precision; says how much more. None if
     /// there is no factor all the same.
     pub fn factor(&mut self) -> Option<f64> {
-        let largest = self.starts[1..].iter().map(|&end| self.values[end - 1]).fold(0.0, f64::max);
-        let mut more = 0.0;
-        for share in [0.0, 1e-15, 1e-13, 1e-11] {
-            let added = share * largest - more;
-            self.starts[1..].iter().for_each(|&end| self.values[end - 1] += added);
-            more += added;
-            if self.try_to_factor() {
-                return Some(more);
-            }
-        }
-        None
+        let on_diagonal = self.diagonal.iter().flat_map(|block| (0..B).map(|k| block[k][k]));
+        let largest = on_diagonal.fold(0.0, f64::max);
+        [0.0, 1e-15, 1e-13, 1e-11].into_iter().map(|share| share * largest).find(|&more| self.try_to_factor(more))
     }
 
-    fn try_to_factor(&mut self) -> bool {
-        let n = self.right.len();
-        let pattern = SymbolicSparseColMatRef::new_checked(n, n, &self.starts, None, &self.rows);
-        let matrix = SparseColMatRef::new(pattern, &self.values);
-        let stack = MemStack::new(&mut self.memory);
+    fn try_to_factor(&mut self, more: f64) -> bool {
         poll(8 * self.factor.len());
-        let done = self.symbolic.factorize_numeric_llt(
-            &mut self.factor,
-            matrix,
-            Side::Upper,
-            Default::default(),
-            Par::Seq,
-            stack,
-            Default::default(),
-        );
-        done.is_ok()
+        match &mut self.factor {
+            Factor::Blocks(factor) => factor.factor(&self.diagonal, &self.below, more),
+            Factor::Supernodes(factor) => factor.factor(&self.diagonal, &self.below, more),
+        }
     }
 
     /// Solves with it, in place.
     pub fn solve(&mut self, x: &mut [[f64; B]]) {
         for (x, &place) in x.iter().zip(&self.place) {
-            self.right[place * B..][..B].copy_from_slice(x);
+            self.right[place] = *x;
         }
         poll(2 * self.factor.len());
-        let factor = LltRef::new(&self.symbolic, &self.factor);
-        let (n, stack) = (self.right.len(), MemStack::new(&mut self.memory));
-        let right = MatMut::from_column_major_slice_mut(&mut self.right, n, 1);
-        factor.solve_in_place_with_conj(Conj::No, right, Par::Seq, stack);
+        match &mut self.factor {
+            Factor::Blocks(factor) => factor.solve(&mut self.right),
+            Factor::Supernodes(factor) => factor.solve(&mut self.right),
+        }
         for (x, &place) in x.iter_mut().zip(&self.place) {
-            x.copy_from_slice(&self.right[place * B..][..B]);
+            *x = self.right[place];
         }
     }
 }
@@ -184,17 +164,6 @@ fn weighted<const B: usize, const D: usize>(jacobian: &[[f64; B]; D], weight: &[
         }
     }
     product
-}
-
-/// `J'` times a product, by columns.
-fn block<const B: usize, const D: usize>(jacobian: &[[f64; B]; D], product: &[[f64; B]; D]) -> [[f64; B]; B] {
-    let mut block = [[0.0; B]; B];
-    for k in 0..D {
-        for column in 0..B {
-            (0..B).for_each(|row| block[column][row] += jacobian[k][row] * product[k][column]);
-        }
-    }
-    block
 }
 
 /// Pairs of so many sides.

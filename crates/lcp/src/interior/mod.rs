@@ -25,6 +25,8 @@
 //! *When.* From nothing, or where friction must carry much: some ten to twenty iterations whatever the size. Where one block
 //! comes or goes, [`cone`](crate::cone) is hundreds of times faster. What was measured: docs/theory/interior-point.md.
 
+mod block_cholesky;
+mod blocks;
 mod layers;
 mod matrix;
 mod method;
@@ -34,6 +36,7 @@ mod resting;
 mod scaled;
 mod scaling;
 mod solving;
+mod supernodes;
 
 pub use layers::Layers;
 pub use method::{End, Found};

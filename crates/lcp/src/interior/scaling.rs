@@ -23,9 +23,14 @@ struct Round {
     inverse: [f64; 3],
 }
 
+/// Length of the last two components; they are near one, so that no square overflows.
+fn radius(x: &[f64]) -> f64 {
+    (x[1] * x[1] + x[2] * x[2]).sqrt()
+}
+
 /// `x_0^2 - x_1^2 - x_2^2`, without the loss of digits near the border of the cone.
 fn determinant(x: &[f64]) -> f64 {
-    let radius = x[1].hypot(x[2]);
+    let radius = radius(x);
     (x[0] - radius) * (x[0] + radius)
 }
 
@@ -115,7 +120,7 @@ impl Round {
         let gamma = ((1.0 + inner) / 2.0).sqrt();
         let sign = [1.0, -1.0, -1.0];
         let w = [0, 1, 2].map(|k| (s[k] / root_s + sign[k] * f[k] / root_f) / (2.0 * gamma));
-        let radius = w[1].hypot(w[2]);
+        let radius = radius(&w);
         let axis = if radius > 0.0 { [w[1] / radius, w[2] / radius] } else { [1.0, 0.0] };
         let (stretch, square) = (w[0] + radius, eta * eta);
         let squares = [square * stretch * stretch, square / (stretch * stretch), square];
