@@ -134,7 +134,7 @@ pub fn check_blocks_while(
     if large && let Some(stands) = takedown::check(assembly, blocks, Counts::default()) {
         return Some(stands);
     }
-    let (found, equilibrium) = equilibrium_while(assembly, blocks, Effort::OfInteriorPoint, go_on)?;
+    let (found, equilibrium) = equilibrium_while(assembly, blocks, Effort::OfUpright, go_on)?;
     let spent = equilibrium.counts();
     match found {
         // What stands within pyramids stands within the round cones around them.
