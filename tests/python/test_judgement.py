@@ -170,3 +170,15 @@ def test_falls_of_blocks_that_differ_by_1e8_and_more(family: int, count: int) ->
     rng, tally = np.random.default_rng([0, 2, family, count]), Tally()
     judge(named(made(rng), name), rng, tally, name)
     assert (dict(tally.wrong), tally.fall, tally.unanswered, tally.virtual) == ({}, 1, 0, 0)
+
+
+@pytest.mark.parametrize("count", [71, 332, 384])
+def test_a_motion_in_64_bits_proves_nothing_where_masses_differ_widely(count: int) -> None:
+    """Towers with thin shims, masses to 1e10 apart: it closes a contact of a heavy block."""
+    from structures.families import Seen, families, named, scene_of
+
+    family, (name, made) = next((i, f) for i, f in enumerate(families(2)) if "shims 1e10" in f[0])
+    structure = named(made(np.random.default_rng([0, 2, family, count])), name)
+    assert structure.right
+    for method in ("interior", "equilibrium"):
+        assert ds.check(scene_of(structure, Seen()), method=method).stable, method

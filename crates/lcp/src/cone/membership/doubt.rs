@@ -80,7 +80,8 @@ impl ConeSolver {
             }
         }
         let power = self.certificate_power();
-        closing <= 10.0 * RATE * largest
+        !self.problem.wide // as in `certifies`
+            && closing <= 10.0 * RATE * largest
             && power > 2.0 * OF_FORCE * largest
             && power > MARGIN * (bound + closing * (force / scale + 1.0))
     }
