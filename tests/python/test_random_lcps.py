@@ -66,6 +66,13 @@ def test_a_certificate_of_nearly_equal_columns_is_found(name: str, seed: int) ->
     assert tally.judged == {Judgement.RIGHT: tally.answers}, tally.remarks
 
 
+def test_where_pivots_go_in_circles_another_method_is_asked() -> None:
+    """Of two columns that are opposite but for rounding now one bears and now the other."""
+    family = next(family for family in FAMILIES if family.name == "near opposite columns")
+    tally = random_lcps.walks(family, range(94, 95))
+    assert tally.judged == {Judgement.RIGHT: tally.answers}, tally.remarks
+
+
 TWO = Problem(np.array([[1.0, -1.0], [-1.0, 1.0]]), np.array([-1.0, -1.0]))
 
 

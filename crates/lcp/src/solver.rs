@@ -439,7 +439,7 @@ impl Solver {
                 return Ok(Some(status));
             }
             if cycle == Cycle::Limit {
-                return Ok(Some(Status::PivotLimit));
+                return self.beyond_the_limit().map(Some);
             }
             let Some(repair) = repairs.next() else { return self.last_resort().map(Some) };
             if matches!(repair, Repair::Finer) && self.certify_in_null_space()? {

@@ -112,6 +112,20 @@ impl Solver {
         Ok(if self.ray.is_some() { Status::NoSolution } else { Status::NumericalTrouble })
     }
 
+    /// The pivots have come to an end. If it was not the caller who set it, rounding led them in circles, and there may be an answer all the same.
+    ///
+    /// # Errors
+    /// [`LcpError::NotSemidefinite`].
+    pub(super) fn beyond_the_limit(&mut self) -> Result<Status, LcpError> {
+        if self.settings.pivot_limit.is_some() {
+            return Ok(Status::PivotLimit);
+        }
+        Ok(match self.last_resort()? {
+            Status::NumericalTrouble => Status::PivotLimit,
+            answer => answer,
+        })
+    }
+
     fn ask_lemke(&mut self, rows: &[usize]) -> Result<Option<Status>, LcpError> {
         let q = rows.iter().map(|&i| self.load.scaled[i]).collect();
         let part = Problem::new(self.m.principal(rows), q)?;
