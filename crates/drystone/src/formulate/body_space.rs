@@ -203,6 +203,24 @@ impl<'a> BodySpace<'a> {
         self.blocks.iter().zip(accelerations.chunks(self.problem.size)).map(of).collect()
     }
 
+    /// The blocks with their accelerations under a load of the problem and forces, which are unknowns of the problem.
+    pub fn accelerations(&self, load: &[f64], forces: &[f64]) -> Vec<(usize, Components)> {
+        let (size, mut wrenches, mut rest) = (self.problem.size, load.to_vec(), forces);
+        for point in &self.problem.points {
+            let (own, others) = rest.split_at(point.cone.unknowns());
+            rest = others;
+            let force = point.cone.force(own);
+            for (body, jacobian) in point.bodies.iter().zip(&point.jacobian) {
+                let Some(body) = body else { continue };
+                for (force, row) in force.iter().zip(jacobian) {
+                    wrenches[body * size..][..size].iter_mut().zip(row).for_each(|(sum, row)| *sum += force * row);
+                }
+            }
+        }
+        wrenches.iter_mut().zip(&self.problem.inverse_mass).for_each(|(wrench, inverse)| *wrench *= inverse);
+        self.motion(&wrenches)
+    }
+
     /// What is solved.
     pub fn problem(&self) -> &Gauss {
         &self.problem

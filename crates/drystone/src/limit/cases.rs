@@ -3,7 +3,7 @@
 //! The loads under which it stands are a convex cone, and what proves a case proves others. Forces well inside the friction cones
 //! at one case follow the factors linearly ([`Nearby`]), and hold all cases for which they stay inside. A mechanism brings down
 //! all cases in which the loads do work in it, which is linear in the factors too. Only a case that neither tells is looked at by
-//! itself, and adds one or the other.
+//! itself, and adds one or the other: forces follow the loads towards it until they hold it, or a mechanism stops them ([`Walker`]).
 
 use super::{
     centre::{Centre, Centres},
@@ -13,10 +13,14 @@ use super::{
 use crate::{
     check::check_blocks_while,
     formulate::{Assembly, BlockSet, Constrained, FrictionCone, Push},
+    geometry::length,
     interrupt::poll,
-    proof::proved,
+    judgement::CLOSING,
+    proof::{closing, proved},
     threads::at_once,
 };
+#[cfg(doc)]
+use drystone_lcp::interior::{Nearby, Walker};
 use drystone_lcp::{Status, interior::End};
 use std::sync::Arc;
 
@@ -47,30 +51,21 @@ pub fn cases(
     cone: FrictionCone,
 ) -> Cases {
     let asked = Asked { assembly, blocks, loads, cone };
+    let open = factors.iter().enumerate().map(|(index, case)| Open { index, case, nearest: None });
     let mut answering = Answering {
         asked,
         centres: Centres::new(assembly, blocks, loads, cone),
-        falls: Vec::new(),
+        open: open.collect(),
         stands: vec![None; factors.len()],
         solved: 0,
     };
     let none = vec![0.0; loads.len()];
     let own = asked.look(&none, None);
     answering.learn(&none, own);
-    // Two of those that are not known yet are looked at together, on two threads if there are.
-    let mut waiting = None;
-    for (k, case) in factors.iter().enumerate() {
-        poll(CASE);
-        answering.stands[k] = answering.known(case);
-        if answering.stands[k].is_some() {
-            continue;
-        }
-        match waiting.take() {
-            None => waiting = Some(k),
-            Some(other) => answering.solve(&[other, k], factors),
-        }
+    while !answering.open.is_empty() {
+        poll(CASE * answering.open.len());
+        answering.solve();
     }
-    answering.solve(&Vec::from_iter(waiting), factors);
     Cases { stands: answering.stands, solved: answering.solved }
 }
 
@@ -91,42 +86,73 @@ struct Told {
     fall: Option<Fall>,
 }
 
+/// A case of which nothing is known yet.
+struct Open<'a> {
+    index: usize,
+    case: &'a [f64],
+    /// The centre whose forces, changed, hold the largest share of the way to it.
+    nearest: Option<(f64, Arc<Centre>)>,
+}
+
+impl Open<'_> {
+    fn share(&self) -> f64 {
+        self.nearest.as_ref().map_or(0.0, |(share, _)| *share)
+    }
+}
+
 struct Answering<'a> {
     asked: Asked<'a>,
     /// None where the interior point method has no memory.
     centres: Option<Centres<'a>>,
-    falls: Vec<Fall>,
+    open: Vec<Open<'a>>,
     stands: Vec<Option<bool>>,
     solved: usize,
 }
 
 impl Answering<'_> {
-    /// What the others tell of a case.
-    fn known(&self, case: &[f64]) -> Option<bool> {
-        if self.falls.iter().any(|fall| fall.brings_down(case)) {
-            return Some(false);
+    /// Answers the two cases that are nearest to what is known to stand, on two threads if there are: of these most take little,
+    /// and those further away are often told by them.
+    fn solve(&mut self) {
+        let mut some = Vec::new();
+        for _ in 0..self.open.len().min(2) {
+            let next =
+                (0..self.open.len()).rev().max_by(|&a, &b| self.open[a].share().total_cmp(&self.open[b].share()));
+            some.push(self.open.remove(next.expect("there is one")));
         }
-        self.centres.as_ref().is_some_and(|centres| centres.hold(case)).then_some(true)
-    }
-
-    /// Answers up to two cases.
-    fn solve(&mut self, some: &[usize], factors: &[Vec<f64>]) {
         let (asked, centres) = (self.asked, &self.centres);
-        let look =
-            |k: usize| asked.look(&factors[k], centres.as_ref().and_then(|centres| centres.nearest(&factors[k])));
-        let told = at_once(some.iter().copied(), look);
-        for (&k, told) in some.iter().zip(told) {
+        let look = |open: &Open<'_>| match (centres, &open.nearest) {
+            (Some(centres), Some((_, from))) => asked.by_walk(centres, from, open.case),
+            _ => None,
+        };
+        let told = at_once(&some, |open| look(open).unwrap_or_else(|| asked.look(open.case, open.nearest.as_ref())));
+        for (open, told) in some.iter().zip(told) {
             self.solved += 1;
-            self.stands[k] = told.stands;
-            self.learn(&factors[k], told);
+            self.stands[open.index] = told.stands;
+            self.learn(open.case, told);
         }
     }
 
+    /// What a case tells of those that are open.
     fn learn(&mut self, case: &[f64], told: Told) {
-        self.falls.extend(told.fall);
-        if let (Some(centres), Some(forces)) = (&mut self.centres, told.forces) {
-            centres.keep(&self.asked.under(case), case.to_vec(), forces);
+        let stands = &mut self.stands;
+        if let Some(fall) = told.fall {
+            self.open.retain(|open| {
+                let falls = fall.brings_down(open.case);
+                stands[open.index] = falls.then_some(false);
+                !falls
+            });
         }
+        let (Some(centres), Some(forces)) = (&mut self.centres, told.forces) else { return };
+        let Some(centre) = centres.keep(&self.asked.under(case), case.to_vec(), forces) else { return };
+        self.open.retain_mut(|open| {
+            let share = centre.share(open.case, open.share());
+            if open.nearest.is_none() || share > open.share() {
+                open.nearest = Some((share, Arc::clone(&centre)));
+            }
+            let holds = centres.hold(&centre, open.case, share);
+            stands[open.index] = holds.then_some(true);
+            !holds
+        });
     }
 }
 
@@ -136,10 +162,30 @@ impl Asked<'_> {
         self.assembly.pushed(&Push::sum(self.assembly, self.loads, case), 1.0)
     }
 
+    /// By forces that follow the loads from a case under which it stands, or a mechanism that stops them on the way. None where
+    /// that leads nowhere, or ends too near to tell.
+    fn by_walk(&self, centres: &Centres<'_>, from: &Centre, case: &[f64]) -> Option<Told> {
+        let (space, walked) = (centres.space(), centres.walk(from, case)?);
+        let (motion, forces) = (space.motion(&walked.motion), space.forces(&walked.forces));
+        if walked.share == 1.0 {
+            let under = self.under(case);
+            let proof = proved(&under, self.blocks, &[], &forces, self.cone, true);
+            let stands = proof.stands && centres.inside(&walked.forces);
+            return stands.then_some(Told { stands: Some(true), forces: Some(walked.forces), fall: None });
+        }
+        let closing = closing(self.assembly, &motion, &forces, self.cone);
+        let there: Vec<f64> =
+            case.iter().zip(from.case()).map(|(to, from)| from + walked.share * (to - from)).collect();
+        let size = forces.iter().map(|force| length(force.force)).sum();
+        let fall = Fall::new(self.assembly, &self.under(&there), self.loads, &motion, closing, size);
+        let falls = closing <= CLOSING && walked.bound < 1.0 - NEAR && fall.brings_down(case);
+        falls.then_some(Told { stands: Some(false), forces: None, fall: Some(fall) })
+    }
+
     /// Looks at a case by itself, and from the centre that is nearest to it.
-    fn look(&self, case: &[f64], nearest: Option<(f64, Arc<Centre>)>) -> Told {
-        let by_limit = || nearest.as_ref().and_then(|(_, from)| self.towards(from, case));
-        let likely = nearest.as_ref().is_none_or(|(share, _)| *share >= LIKELY);
+    fn look(&self, case: &[f64], nearest: Option<&(f64, Arc<Centre>)>) -> Told {
+        let by_limit = || nearest.and_then(|(_, from)| self.towards(from, case));
+        let likely = nearest.is_none_or(|(share, _)| *share >= LIKELY);
         let told = match likely {
             true => self.by_interior_point(case).or_else(by_limit),
             false => by_limit().or_else(|| self.by_interior_point(case)),
@@ -156,7 +202,7 @@ impl Asked<'_> {
         let way: Vec<f64> = case.iter().zip(from.case()).map(|(to, from)| to - from).collect();
         let way = Push::sum(self.assembly, self.loads, &way);
         let end = end(&there, self.blocks, &way, self.cone, 1.0, &mut 0).ok()?;
-        let fall = Fall::new(self.assembly, &there, self.loads, &end)?;
+        let fall = Fall::of_end(self.assembly, &there, self.loads, &end)?;
         // What lies between two cases in which it stands stands as well.
         let stands = end.factor > 1.0 + NEAR;
         let falls = end.factor < 1.0 - NEAR && fall.brings_down(case);

@@ -459,6 +459,6 @@ fn add<const B: usize>(sum: &mut [[f64; B]], factor: f64, more: &[[f64; B]]) {
     sum.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(sum, more)| *sum += factor * more);
 }
 
-fn product<const B: usize>(a: &[[f64; B]], b: &[[f64; B]]) -> f64 {
+pub(super) fn product<const B: usize>(a: &[[f64; B]], b: &[[f64; B]]) -> f64 {
     a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| a * b).sum()
 }

@@ -37,9 +37,11 @@ mod scaled;
 mod scaling;
 mod solving;
 mod supernodes;
+mod walk;
 
 pub use layers::Layers;
 pub use method::{End, Found};
 pub use nearby::Nearby;
 pub use problem::{Cone, Gauss, Point};
 pub use solving::worth_of_pivots;
+pub use walk::{Walked, Walker};

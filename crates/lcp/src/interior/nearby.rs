@@ -60,11 +60,11 @@ impl Nearby {
         }
     }
 
-    /// The change (1) of those forces for a load, body after body.
-    pub fn change(&mut self, load: &[f64]) -> Vec<f64> {
+    /// The changes (1) of those forces for some loads, each body after body.
+    pub fn changes(&mut self, loads: &[Vec<f64>]) -> Vec<Vec<f64>> {
         match &mut self.kind {
-            Kind::Plane(kept) => kept.change(load),
-            Kind::Space(kept) => kept.change(load),
+            Kind::Plane(kept) => kept.changes(loads),
+            Kind::Space(kept) => kept.changes(loads),
         }
     }
 }
@@ -91,25 +91,27 @@ impl<const B: usize, const D: usize> Kept<B, D> {
         self.matrix.factor().is_some()
     }
 
-    fn change(&mut self, load: &[f64]) -> Vec<f64> {
+    fn changes(&mut self, loads: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let Self { problem, matrix, f, moved } = self;
-        let mut left = problem.load_in_own_units(load);
-        let mut df = vec![0.0; f.len()];
+        let mut all_left: Vec<_> = loads.iter().map(|load| problem.load_in_own_units(load)).collect();
+        let mut changes = vec![vec![0.0; f.len()]; loads.len()];
         for _ in 0..=REFINEMENTS {
-            matrix.solve(&mut left);
-            problem.motion(&left, moved);
-            for point in &problem.points {
-                give_way(point.round, &f[point.own()], &moved[point.own()], &mut df[point.own()]);
+            for ((left, df), load) in all_left.iter_mut().zip(&mut changes).zip(loads) {
+                matrix.solve(left);
+                problem.motion(left, moved);
+                for point in &problem.points {
+                    give_way(point.round, &f[point.own()], &moved[point.own()], &mut df[point.own()]);
+                }
+                *left = problem.load_in_own_units(load);
+                problem.add_wrenches(df, 1.0, left);
             }
-            left = problem.load_in_own_units(load);
-            problem.add_wrenches(&df, 1.0, &mut left);
         }
-        problem.in_newtons(&df)
+        changes.iter().map(|df| problem.in_newtons(df)).collect()
     }
 }
 
 /// D of a point, on its directions.
-fn weight<const B: usize, const D: usize>(
+pub(super) fn weight<const B: usize, const D: usize>(
     problem: &Scaled<B, D, 2>,
     point: &ScaledPoint<B, D, 2>,
     f: &[f64],
@@ -134,7 +136,7 @@ fn weight<const B: usize, const D: usize>(
 
 /// Takes D times a motion from the forces of a point: the squares of the magnitudes along edges, `2 f f' - det(f) diag(1, -1, -1)`
 /// in a round cone.
-fn give_way(round: bool, f: &[f64], moved: &[f64], df: &mut [f64]) {
+pub(super) fn give_way(round: bool, f: &[f64], moved: &[f64], df: &mut [f64]) {
     if !round {
         df.iter_mut().zip(f.iter().zip(moved)).for_each(|(df, (f, moved))| *df -= f * f * moved);
         return;
@@ -183,7 +185,7 @@ mod tests {
         let loads = [vec![0.0, -4.0, 0.0], vec![2.0, 0.0, 0.0], vec![0.0, 0.0, 1.0]];
         let mut nearby = Nearby::new(&problem).expect("three unknowns");
         assert!(nearby.at(&forces));
-        let changes = loads.each_ref().map(|load| nearby.change(load));
+        let changes = nearby.changes(&loads);
         for (load, change) in loads.iter().zip(&changes) {
             let [a, b, c, d] = change[..] else { panic!("four unknowns") };
             let sums = [0.5 * (a - b + c - d), a + b + c + d, 0.5 * (c + d - a - b)];
@@ -205,7 +207,7 @@ mod tests {
         let load = vec![1.0, -2.0, 0.5, 0.1, 0.2, -0.3];
         let mut nearby = Nearby::new(&problem).expect("six unknowns");
         assert!(nearby.at(&forces));
-        let change = nearby.change(&load);
+        let [change] = &nearby.changes(std::slice::from_ref(&load))[..] else { panic!("one") };
         let mut left = load;
         for (point, df) in problem.points.iter().zip(change.chunks(3)) {
             for (row, df) in point.jacobian[1].iter().zip(df) {

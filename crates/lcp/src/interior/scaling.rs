@@ -179,8 +179,17 @@ pub(super) fn step<const B: usize, const D: usize, const N: usize>(
     x: &[f64],
     d: &[f64],
 ) -> f64 {
+    way_to_border(problem, x, d).min(1.0)
+}
+
+/// The largest step that keeps `x + step d` in the cones; may be infinite.
+pub(super) fn way_to_border<const B: usize, const D: usize, const N: usize>(
+    problem: &Scaled<B, D, N>,
+    x: &[f64],
+    d: &[f64],
+) -> f64 {
     if problem.any_round {
-        let mut longest = 1.0_f64;
+        let mut longest = f64::INFINITY;
         for point in &problem.points {
             let own = point.own();
             let here =
@@ -189,7 +198,7 @@ pub(super) fn step<const B: usize, const D: usize, const N: usize>(
         }
         return longest;
     }
-    on_rays(x, d).min(1.0)
+    on_rays(x, d)
 }
 
 fn on_rays(x: &[f64], d: &[f64]) -> f64 {
