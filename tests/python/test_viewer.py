@@ -169,6 +169,33 @@ def test_charts_hold_every_test_once() -> None:
     assert np.isnan(np.asarray(pivots.values)[[0, -1]]).all(), "whole and nothing are not tested"
 
 
+def test_margins_are_shown_where_they_were_asked_for() -> None:
+    """Four unit blocks on each other bear 1/4 g, three 1/3 g, two 1/2 g, the last one 1 g."""
+    expected = [1 / 4, 1 / 3, 1 / 2, 1]
+    tower = ds.scenes.column(5, friction=2.0)
+    asked, plain = ds.plan(tower, margin=0.2), ds.plan(tower)
+    assert "margin" not in [series.name for series in plan_recording(plain).series]
+    assert plain.margins == pytest.approx(expected)  # now they have been read
+    for plan in (asked, plain):
+        recording = plan_recording(plan)
+        assert (recording.series[0].name, recording.series[0].unit) == ("margin", "g")
+        assert np.asarray(recording.series[0].values)[:-1] == pytest.approx(expected)
+        assert np.isnan(np.asarray(recording.series[0].values)[-1])
+        said = [f"It bears {m:.3g} g sideways." for m in expected]
+        assert all(s in text for s, (_, text) in zip(said, recording.captions, strict=False))
+        assert "with nothing held" in recording.details[0]
+
+
+def test_a_chart_of_margins_has_the_least_of_steps_left_out() -> None:
+    recording = plan_recording(ds.plan(ds.scenes.column(9, friction=2.0), margin=0.1))
+    frames = recording.states.nbytes // 3
+    small = budget.bounded(recording, replace(budget.FILE, frames=frames))
+    assert small.series[0].name == "margin, least of 3"
+    values = np.asarray(recording.series[0].values)
+    assert np.asarray(small.series[0].values)[0] == values[0]
+    assert np.asarray(small.series[0].values)[1] == np.nanmin(values[1:4])
+
+
 def test_what_is_held_is_recorded_step_by_step() -> None:
     plan = ds.plan(ds.scenes.arch(7), hold=1)
     recording = plan_recording(plan)

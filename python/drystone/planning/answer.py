@@ -199,7 +199,10 @@ class Plan(Paged):
         """Of every structure on the way the least horizontal acceleration that brings it down, in
         g: `margins[k]` while all but the first k blocks of `order` stand, with nothing held. As
         `drystone.margin` finds it, with the plan's cones; computed when first read. Without an
-        order those of `reached`, the last put up taken away first."""
+        order those of `reached`, the last put up taken away first.
+
+        The page of a plan (`view`, `save`) shows them at each step if the plan was asked for a
+        margin, or if they have been read before."""
         if not self._margins:
             blocks = self.order or self.reached[::-1]
             facets, cone = self.cones[0], cast(Cone, self.cones[1])
@@ -207,6 +210,11 @@ class Plan(Paged):
                 found = margin(self.scene, blocks[k:], facets=facets, cone=cone)
                 self._margins.append(found.acceleration)
         return tuple(self._margins)
+
+    @property
+    def margins_are_known(self) -> bool:
+        """Whether `margins` have been computed."""
+        return bool(self._margins)
 
     @property
     def hold_steps(self) -> list[tuple[str, str, int]]:

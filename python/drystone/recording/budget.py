@@ -56,7 +56,7 @@ def _with_fewer_frames(recording: Recording, most: int) -> Recording:
     steps = np.arange(frames) if recording.steps is None else recording.steps
     notes = (
         *recording.notes,
-        f"Every {_ordinal(every)} step is shown; charts have the sums of the steps between.",
+        f"Every {_ordinal(every)} step is shown; charts say what they have of the steps between.",
     )
     return replace(
         recording,
@@ -65,7 +65,7 @@ def _with_fewer_frames(recording: Recording, most: int) -> Recording:
         times=None if recording.times is None else recording.times[kept],
         steps=steps[kept],
         forces=None if recording.forces is None else _chosen(recording.forces, kept),
-        series=[_summed(one, kept, every) for one in recording.series],
+        series=[_together(one, kept, every) for one in recording.series],
         captions=[(int(np.searchsorted(kept, at)), text) for at, text in recording.captions],
         notes=notes,
     )
@@ -109,10 +109,13 @@ def _chosen(forces: FrameForces, frames: NDArray[np.int64]) -> FrameForces:
     )
 
 
-def _summed(series: Series, kept: NDArray[np.int64], every: int) -> Series:
-    """Sums over the frames since the last one kept; the first kept is the first."""
-    values = np.nan_to_num(np.asarray(series.values, dtype=np.float64))
-    sums = np.diff(np.concatenate([[0.0], np.cumsum(values)[kept]]))
+def _together(series: Series, kept: NDArray[np.int64], every: int) -> Series:
+    """Over the frames since the last one kept; the first kept is the first."""
+    values = np.asarray(series.values, dtype=np.float64)
+    if series.together == "least":
+        least = np.fmin.reduceat(values, np.concatenate([[0], kept[:-1] + 1]))
+        return replace(series, name=f"{series.name}, least of {every}", values=least)
+    sums = np.diff(np.concatenate([[0.0], np.cumsum(np.nan_to_num(values))[kept]]))
     return replace(series, name=f"{series.name}, sums of {every}", values=sums)
 
 

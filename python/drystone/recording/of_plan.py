@@ -82,7 +82,12 @@ def plan_recording(
 
 def _details(plan: Plan) -> list[str]:
     """What the charts show."""
+    margins = (
+        "The margin is the least horizontal acceleration that brings down what stands at a step, "
+        "with nothing held."
+    )
     return [
+        *([margins] if _margins(plan) else []),
         f"The search made {counted(plan.tests, 'stability test')} by the method {plan.test!r}, "
         f"with {counted(plan.pivots, 'pivot')} of its solver.",
         "At each step the charts show the work of all tests of structures with as many blocks as "
@@ -114,7 +119,7 @@ def _held(plan: Plan, frames: int) -> NDArray[np.bool_]:
 
 
 def _captions(plan: Plan, order: Sequence[str], hands: dict[int, Hands]) -> list[tuple[int, str]]:
-    captions = []
+    captions, margins = [], _margins(plan)
     for step in range(len(order) + 1):
         left = counted(len(order) - step, "block")
         if step > 0:
@@ -131,6 +136,8 @@ def _captions(plan: Plan, order: Sequence[str], hands: dict[int, Hands]) -> list
         for name, wrench in hands.get(step, ()):
             force = float(np.linalg.norm(wrench[: plan.scene.dimension]))
             text += f" The hand on {shown(name)} bears {quantity(force, 'N')}."
+        if step < len(margins) and np.isfinite(margins[step]):
+            text += f" It bears {margins[step]:.3g} g sideways."
         if step < len(order):
             text += f" Next: {_next_step(plan, order, step)}."
         captions.append((step, text))
@@ -153,8 +160,14 @@ def _next_step(plan: Plan, order: Sequence[str], step: int) -> str:
     return f"{', '.join(hands)}, then {away}" if hands else away
 
 
+def _margins(plan: Plan) -> tuple[float, ...]:
+    """Of each structure on the way, g; none unless the plan was asked for a margin, or they have
+    been read: it takes a question or two for each."""
+    return plan.margins if plan.margin > 0 or plan.margins_are_known else ()
+
+
 def _series(plan: Plan, blocks: int) -> list[Series]:
-    """For each frame the work of all tests of structures with as many blocks."""
+    """For each frame its margin, and the work of all tests of structures with as many blocks."""
     sizes = np.array([record.size for record in plan.records], dtype=np.int64)
 
     def total(values: Sequence[float]) -> NDArray[np.float64]:
@@ -172,6 +185,10 @@ def _series(plan: Plan, blocks: int) -> list[Series]:
     ]
     if len(set(sizes.tolist())) < len(sizes):
         series.append(Series("stability tests", total([1.0] * len(sizes))))
+    if margins := _margins(plan):
+        # The bare supports, last, bear whatever comes.
+        values = np.array([m if np.isfinite(m) else np.nan for m in (*margins, np.nan)])
+        series.insert(0, Series("margin", values, "g", together="least"))
     return series
 
 

@@ -63,7 +63,10 @@ class Series:
     values: ArrayLike
     """(frames,), NaN where there is none."""
     unit: str = ""
-    """"s", or nothing for a count."""
+    """"s", "g" (9.81 m/s^2), or nothing for a count."""
+    together: Literal["sum", "least"] = "sum"
+    """What is shown of steps that have no frame of their own: the sum of their values with that of
+    the next frame, or the least of these."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
