@@ -169,6 +169,23 @@ def test_charts_hold_every_test_once() -> None:
     assert np.isnan(np.asarray(pivots.values)[[0, -1]]).all(), "whole and nothing are not tested"
 
 
+@pytest.mark.parametrize("space", [False, True])
+def test_loads_are_in_pages_of_plans_scenes_and_runs(space: bool) -> None:
+    scene = ds.scenes.column(3).extruded() if space else ds.scenes.column(3)
+    top = scene.body("2")
+    force = (1.0, 0.0, -2.0) if space else (1.0, -2.0)
+    at = (*top.center_of_mass[:-1], top.center_of_mass[-1] + 0.5)
+    scene.add_load("2", force=force, at=at)
+    scene.add_load("1", moment=(0.0, 0.1, 0.0) if space else 0.1)  # no arrow
+    pages = ds.plan(scene).view(), scene.view(), ds.simulate(scene, 0.1).view()
+    for shown in pages:
+        (load,) = _embedded(shown.html())["loads"]
+        assert load["body"] == scene.names.index("2")
+        assert load["force"] == pytest.approx(force)
+        assert load["at"] == pytest.approx(at)
+    assert _embedded(ds.plan(ds.scenes.column(2)).view().html())["loads"] == []
+
+
 def test_margins_are_shown_where_they_were_asked_for() -> None:
     """Four unit blocks on each other bear 1/4 g, three 1/3 g, two 1/2 g, the last one 1 g."""
     expected = [1 / 4, 1 / 3, 1 / 2, 1]
@@ -247,6 +264,7 @@ def test_both_sides_of_the_contract_name_the_same_fields() -> None:
         "Piece": contract.PieceJson,
         "Frames": contract.FramesJson,
         "Forces": contract.ForcesJson,
+        "Load": contract.LoadJson,
         "Series": contract.SeriesJson,
         "Packed": contract.Packed,
     }

@@ -1,6 +1,7 @@
-/** Contact forces as arrows, all to one scale, and the key that says which. */
+/** Contact forces and loads as arrows, all to one scale, and the key that says which. */
 
 import type { Camera } from "./camera.ts";
+import type { Load } from "./contract.ts";
 import type { Film, Force } from "./film.ts";
 import { measure } from "./format.ts";
 import type { Palette } from "./palette.ts";
@@ -41,7 +42,29 @@ export function drawForces(
         const pixels = metres * camera.scale;
         arrow(path, camera.screenX(force.x), camera.screenY(force.y), pixels * fx, -pixels * fy);
     }
-    paint(context, path, colours, forces.length <= MANY);
+    paint(context, path, colours, colours.force, forces.length <= MANY);
+}
+
+/** Loads: from where they act, whereto they push. */
+export function drawLoads(
+    context: CanvasRenderingContext2D,
+    loads: Load[],
+    camera: Camera,
+    metres: number,
+    colours: Palette,
+): void {
+    const path = new Path2D();
+    const pixels = metres * camera.scale;
+    for (const { at, force } of loads) {
+        arrow(
+            path,
+            camera.screenX(at[0]),
+            camera.screenY(at[1]),
+            pixels * force[0],
+            -pixels * force[1],
+        );
+    }
+    paint(context, path, colours, colours.load, true);
 }
 
 /** An arrow of a round force in the lower left corner, with its value. */
@@ -64,7 +87,7 @@ export function drawKey(
     context.globalAlpha = 1;
     const path = new Path2D();
     arrow(path, x, y, length, 0);
-    paint(context, path, colours, true);
+    paint(context, path, colours, colours.force, true);
     context.fillStyle = colours.ink;
     context.fillText(text, x + length + 7, y);
 }
@@ -102,6 +125,7 @@ function paint(
     context: CanvasRenderingContext2D,
     path: Path2D,
     colours: Palette,
+    colour: string,
     halo: boolean,
 ): void {
     if (halo) {
@@ -110,6 +134,6 @@ function paint(
         context.lineWidth = 1.6;
         context.stroke(path);
     }
-    context.fillStyle = colours.force;
+    context.fillStyle = colour;
     context.fill(path);
 }

@@ -27,6 +27,8 @@ export interface Recording {
     bodies: Body[];
     frames: Frames;
     forces: Forces | null;
+    /** Permanent loads on bodies. */
+    loads: Load[];
     /** One chart each, under the picture. */
     series: Series[];
 }
@@ -105,6 +107,15 @@ export interface Forces {
     points: Packed;
     /** f32 (dimension, m), N, on the second body. */
     vectors: Packed;
+}
+
+/** A force that acts on a body all the time. */
+export interface Load {
+    body: number;
+    /** Where, m, while the body is at its own pose; it goes with the body. */
+    at: number[];
+    /** N, along the axes of the world. */
+    force: number[];
 }
 
 export interface Series {

@@ -1,5 +1,5 @@
 /** A recording in memory: what is where in each frame, and what pushes what. */
-import { type Body, type Recording, State } from "./contract.ts";
+import { type Body, type Load, type Recording, State } from "./contract.ts";
 
 export interface FilmForces {
     frames: Uint32Array;
@@ -39,6 +39,7 @@ export class Film {
     readonly dimension: 2 | 3;
     readonly gravity: number[];
     readonly bodies: Body[];
+    readonly loads: Load[];
     readonly count: number;
     /** Width and height (and depth) of each body in its own frame, m. */
     readonly sizes: number[][];
@@ -56,6 +57,7 @@ export class Film {
         this.dimension = recording.dimension;
         this.gravity = recording.gravity;
         this.bodies = recording.bodies;
+        this.loads = recording.loads ?? [];
         this.count = recording.frames.count;
         this.captions = recording.frames.captions;
         this.sizes = this.bodies.map(({ vertices, pieces }) =>
@@ -159,14 +161,32 @@ export class Film {
         return found;
     }
 
-    /** Magnitudes of all forces in the recording, N. */
+    /** The loads of a frame: those on bodies that are there, where these have taken them. */
+    loadsOf(frame: number): Load[] {
+        const there = this.loads.filter(({ body }) => this.state(frame, body) !== State.absent);
+        return there.map((load) => ({ ...load, at: this.carried(frame, load.body, load.at) }));
+    }
+
+    /** A point of the world that goes with a body, from where it is at the body's own pose. */
+    private carried(frame: number, body: number, at: number[]): number[] {
+        const [own, now] = [this.bodies[body].pose, [...this.pose(frame, body)]];
+        const arm = at.map((x, k) => x - own[k]);
+        const turned =
+            this.dimension === 2
+                ? inPlane(now[2] - own[2], arm)
+                : inSpace(now.slice(3), inSpace(inverse(own.slice(3)), arm));
+        return turned.map((x, k) => x + now[k]);
+    }
+
+    /** Magnitudes of all forces in the recording, and of its loads, N. */
     magnitudes(): Float32Array {
         const vectors = this.arrays.forces?.vectors ?? new Float32Array();
         const m = vectors.length / this.dimension;
         const z = this.dimension === 3 ? (i: number) => vectors[2 * m + i] : () => 0;
-        return Float32Array.from({ length: m }, (_, i) =>
+        const forces = Array.from({ length: m }, (_, i) =>
             Math.hypot(vectors[i], vectors[m + i], z(i)),
         );
+        return Float32Array.from([...forces, ...this.loads.map(({ force }) => size(force))]);
     }
 
     /** The most forces that a frame has. */
@@ -197,6 +217,31 @@ export class Film {
         }
         return -1;
     }
+}
+
+function size(vector: number[]): number {
+    return Math.hypot(...vector);
+}
+
+/** Turned counter-clockwise, rad. */
+function inPlane(turn: number, [x, y]: number[]): number[] {
+    const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
+    return [cos * x - sin * y, sin * x + cos * y];
+}
+
+/** Turned by a unit quaternion w, x, y, z: v + 2 w (q x v) + 2 q x (q x v). */
+function inSpace([w, ...q]: number[], v: number[]): number[] {
+    const once = cross(q, v);
+    const twice = cross(q, once);
+    return v.map((x, k) => x + 2 * w * once[k] + 2 * twice[k]);
+}
+
+function inverse([w, ...q]: number[]): number[] {
+    return [w, ...q.map((x) => -x)];
+}
+
+function cross([a, b, c]: number[], [x, y, z]: number[]): number[] {
+    return [b * z - c * y, c * x - a * z, a * y - b * x];
 }
 
 /** Sides of the box around some points. */

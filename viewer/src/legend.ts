@@ -21,6 +21,7 @@ export function drawLegend(list: HTMLElement, film: Film): void {
     const shown = words.filter(([state]) => states.has(state) && (plan || state !== State.absent));
     const items = shown.map(([, kind, text]) => item(kind, text));
     if (film.holds()) items.push(item("held", "held"));
+    if (film.loads.length > 0) items.push(item("load", "load"));
     if (film.bodies.some(({ fixed }) => fixed)) items.push(item("fixed", "fixed"));
     list.replaceChildren(...items);
 }

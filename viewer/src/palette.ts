@@ -13,6 +13,7 @@ const NAMES = [
     "falling",
     "fall",
     "force",
+    "load",
     "held",
     "still-name",
     "mark-name",

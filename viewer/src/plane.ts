@@ -1,5 +1,5 @@
 /** The picture in the plane. */
-import { drawForces, drawKey, forceScale } from "./arrows.ts";
+import { drawForces, drawKey, drawLoads, forceScale } from "./arrows.ts";
 import { drawBlocks } from "./blocks.ts";
 import { Camera, viewOf } from "./camera.ts";
 import { State } from "./contract.ts";
@@ -37,6 +37,8 @@ export class PlaneStage implements Stage {
         const scene = { context: surface.context, film, frame, camera };
         drawBlocks(scene, look.fade, { colours, names, marked });
         if (look.forces) this.drawForces(look);
+        const metres = this.metres * look.stretch;
+        drawLoads(surface.context, film.loadsOf(frame), camera, metres, colours);
     }
 
     private drawForces({ frame, colours, stretch }: Look): void {

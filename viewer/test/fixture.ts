@@ -67,6 +67,7 @@ export function planRecording(): Recording {
             points: packed(Float32Array.of(0, 0.25, 0, 1), [2, 2]),
             vectors: packed(Float32Array.of(0, 3, 40, -4), [2, 2]),
         },
+        loads: [],
         series: [{ name: "pivots", unit: "", values: packed(Float32Array.of(Number.NaN, 2, 4)) }],
     };
 }

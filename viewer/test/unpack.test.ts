@@ -69,3 +69,15 @@ test("positions in ascending numbers", () => {
     );
     assert.equal(lastUpTo(new Uint32Array(), 0), -1);
 });
+
+test("loads go with their bodies, and leave with them", async () => {
+    const loads = [{ body: 2, at: [0.5, 2], force: [0, -8] }];
+    const plan = await filmOf({ ...planRecording(), loads });
+    assert.deepEqual(plan.loadsOf(0), loads);
+    assert.deepEqual(plan.loadsOf(1), [], "its body is taken away");
+    assert.deepEqual([...plan.magnitudes()], [40, 5, 8], "arrows have one scale");
+    // From (0, 1.5) to (2, 1), and a quarter turn; the force keeps its direction.
+    const [load] = (await filmOf({ ...runRecording(), loads })).loadsOf(1);
+    for (const x of load.at) assert.ok(Math.abs(x - 1.5) < 1e-6, `${load.at}`);
+    assert.deepEqual(load.force, [0, -8]);
+});

@@ -80,6 +80,14 @@ class ForcesJson(TypedDict):
     vectors: Packed
 
 
+class LoadJson(TypedDict):
+    """A permanent load: `at` is where it acts while the body is at its own pose."""
+
+    body: int
+    at: list[float]
+    force: list[float]
+
+
 class SeriesJson(TypedDict):
     """One chart: `values` is f32 (count), NaN for none."""
 
@@ -102,6 +110,7 @@ class RecordingJson(TypedDict):
     bodies: list[BodyJson]
     frames: FramesJson
     forces: ForcesJson | None
+    loads: list[LoadJson]
     series: list[SeriesJson]
 
 

@@ -72,6 +72,7 @@ def plan_recording(
         states=_states(plan, order),
         held=_held(plan, len(order) + 1) if any(plan.holds) else None,
         gravity=plan.scene.gravity,
+        loads=plan.scene.loads,
         forces=forces,
         series=_series(plan, len(order)),
         captions=_captions(plan, order, hands),
@@ -239,6 +240,7 @@ def _fallen(plan: Plan, whole: Verdict, headline: str) -> Recording:
         bodies=plan.scene.bodies,
         states=states,
         gravity=plan.scene.gravity,
+        loads=plan.scene.loads,
         forces=FrameForces([0, len(forces)], forces.bodies, forces.points, forces.vectors),
         captions=[(0, str(whole).partition("; ")[0] + ".")],
     )

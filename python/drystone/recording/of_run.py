@@ -83,6 +83,7 @@ def run_recording(
         bodies=scene.bodies,
         states=np.where(absent, ABSENT, states).astype(np.uint8),
         gravity=scene.gravity,
+        loads=scene.loads,
         poses=np.where(absent[:, :, None], 0.0, at),
         times=np.asarray(times, dtype=np.float64),
         forces=forces,

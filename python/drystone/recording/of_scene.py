@@ -29,6 +29,7 @@ def scene_recording(scene: Scene) -> Recording:
         bodies=scene.bodies,
         states=np.array(states, dtype=np.uint8).reshape(1, len(scene)),
         gravity=scene.gravity,
+        loads=scene.loads,
         captions=[(0, "Red blocks overlap." if overlaps else "The scene as it is given.")],
         notes=[
             *(f"Overlap of {line}." for line in said(overlaps)),

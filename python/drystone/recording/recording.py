@@ -14,12 +14,13 @@ from drystone.recording.contract import (
     VERSION,
     BodyJson,
     ForcesJson,
+    LoadJson,
     PieceJson,
     RecordingJson,
     SeriesJson,
     packed,
 )
-from drystone.scene import Body, Solid
+from drystone.scene import Body, Load, Solid
 
 POSE = {2: 3, 3: 7}
 """Numbers of a pose, by dimension."""
@@ -95,6 +96,9 @@ class Recording:
     held: NDArray[np.bool_] | None = None
     """(frames, bodies): what a hand or a scaffold holds. None: nothing is held."""
     forces: FrameForces | None = None
+    loads: Sequence[Load] = ()
+    """Permanent loads, as they act while bodies are where `bodies` has them. Those without a force
+    are not shown."""
     series: Sequence[Series] = ()
     captions: Sequence[tuple[int, str]] = ()
     """(frame, text): what is said from that frame on."""
@@ -153,8 +157,17 @@ class Recording:
                 "captions": [(int(frame), text) for frame, text in self.captions],
             },
             "forces": None if self.forces is None else _forces(self.forces),
+            "loads": self._loads(),
             "series": [_series(one) for one in self.series],
         }
+
+    def _loads(self) -> list[LoadJson]:
+        index = {body.name: place for place, body in enumerate(self.bodies)}
+        return [
+            {"body": index[load.body], "at": list(load.at), "force": list(load.force)}
+            for load in self.loads
+            if any(load.force)
+        ]
 
 
 def own_frame(body: Body) -> NDArray[np.float64]:

@@ -35,6 +35,19 @@ test("a card in space says kilograms a cubic metre, and how far a body is turned
     assert.equal(rows.turn, "90°");
 });
 
+test("loads go with bodies that turn in space", async () => {
+    const loads = [{ body: 2, at: [0, 0, 2], force: [1, 0, -8] }];
+    const [before, after] = [0, 1].map(async (frame) =>
+        (await filmOf({ ...tumbling(), loads })).loadsOf(frame),
+    );
+    assert.deepEqual(await before, loads);
+    // From (0, 0, 1.5) to (0, 2, 1), and a quarter turn about x, which takes z to -y.
+    const [load] = await after;
+    const [x, y, z] = load.at;
+    assert.ok(Math.hypot(x, y - 1.5, z - 1) < 1e-6, `${load.at}`);
+    assert.deepEqual(load.force, [1, 0, -8]);
+});
+
 test("the first taken away is yellow, the last violet", async () => {
     assert.equal(orderColour(0, 5).getHexString(), "fde725");
     assert.equal(orderColour(4, 5).getHexString(), "440154");
