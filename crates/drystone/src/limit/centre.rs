@@ -202,21 +202,16 @@ impl<'a> Centres<'a> {
     }
 }
 
-/// Whether what is left between forces and the borders of their cone, N, is as said.
-fn gaps_are(cone: &Cone, f: &[f64], said: impl Fn(f64) -> bool) -> bool {
-    match cone {
-        Cone::Edges(_) => f.iter().all(|f| said(*f)),
-        Cone::Round { friction } => said(friction * f[0] - f[1].hypot(f[2])),
-    }
-}
-
 /// Whether all forces are inside their cones, not on a border.
 fn inside(problem: &Gauss, forces: &[f64]) -> bool {
     let mut first = 0;
     problem.points.iter().all(|point| {
         let own = &forces[first..first + point.cone.unknowns()];
         first += own.len();
-        gaps_are(&point.cone, own, |gap| gap > 0.0)
+        match point.cone {
+            Cone::Edges(_) => own.iter().all(|f| *f > 0.0),
+            Cone::Round { friction } => friction * own[0] > own[1].hypot(own[2]),
+        }
     })
 }
 
