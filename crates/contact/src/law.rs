@@ -27,7 +27,7 @@ pub(crate) fn error<const D: usize>(friction: f64, u: &[f64; D], p: &[f64; D], w
     for k in 1..D {
         z[k] -= u[k];
     }
-    let point = project(friction, &z).point;
+    let point = project(friction, &z);
     let mut square = 0.0;
     for k in 0..D {
         square += (p[k] - point[k]).powi(2);
@@ -35,46 +35,46 @@ pub(crate) fn error<const D: usize>(friction: f64, u: &[f64; D], p: &[f64; D], w
     square.sqrt()
 }
 
-/// In which part of space the argument of a projection on the cone lies, and with it what a contact does.
+/// What a contact does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Part {
-    /// In the polar cone: the projection is zero.
+    /// It bears nothing.
     Parts,
-    /// In the cone.
+    /// Its impulse is within the cone.
     Sticks,
-    /// Outside of both.
+    /// Its impulse is on the cone's edge.
     Slides,
 }
 
-/// The projection `P(z)` on the cone `|t| <= mu n`, with its derivative `g g' + beta e e'`, `e` square to `g` and to the normal.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Projection<const D: usize> {
-    pub part: Part,
-    pub point: [f64; D],
-    /// Of what slides: unit vector along the cone's edge.
-    pub edge: [f64; D],
-    /// Of what slides: share of a turn of `z_t` that the projection makes.
-    pub beta: f64,
+impl Part {
+    /// By the impulse that the contact would have if it stuck.
+    #[inline(always)]
+    pub fn of<const D: usize>(friction: f64, z: &[f64; D]) -> Self {
+        if z[0] <= 0.0 {
+            Self::Parts
+        } else if friction > 0.0 && tangential(z) <= friction * z[0] {
+            Self::Sticks
+        } else {
+            Self::Slides
+        }
+    }
 }
 
+/// The point of the cone `|t| <= mu n` that is nearest to z.
 #[inline(always)]
-pub(crate) fn project<const D: usize>(friction: f64, z: &[f64; D]) -> Projection<D> {
+fn project<const D: usize>(friction: f64, z: &[f64; D]) -> [f64; D] {
     let size = tangential(z);
     if size <= friction * z[0] {
-        return Projection { part: Part::Sticks, point: *z, edge: [0.0; D], beta: 0.0 };
+        return *z;
     }
     if friction * size <= -z[0] {
-        return Projection { part: Part::Parts, point: [0.0; D], edge: [0.0; D], beta: 0.0 };
+        return [0.0; D];
     }
-    let square = 1.0 + friction * friction;
-    let length = square.sqrt();
-    let normal = (z[0] + friction * size) / square;
-    let (mut point, mut edge) = ([normal; D], [1.0 / length; D]);
+    let normal = (z[0] + friction * size) / (1.0 + friction * friction);
     let along = if size > 0.0 { friction / size } else { 0.0 };
+    let mut point = [normal; D];
     for k in 1..D {
         point[k] = normal * along * z[k];
-        edge[k] = along * z[k] / length;
     }
-    let beta = if D > 2 && size > 0.0 { friction * normal / size } else { 0.0 };
-    Projection { part: Part::Slides, point, edge, beta }
+    point
 }

@@ -12,8 +12,8 @@
 //! collection FCLIB (Acary and others, 2014), and what Siconos, MuJoCo and other simulators solve in every step.
 //!
 //! Read in this order: [`Bodies`] and [`Contact`] (rigid bodies) or [`Matrices`] (any M), [`Settings`] (the one tolerance), [`Solution`]
-//! and [`Status`]. The method: sweeps over the contacts find roughly who sticks, slides and parts; Newton's method on the natural map
-//! makes it exact. What was measured and what lost: docs/theory/step-solver.md.
+//! and [`Status`]. The method: sweeps over the contacts find roughly who sticks, slides and parts; Newton's method on contacts that
+//! give way less and less (an augmented Lagrangian) makes it exact. What was measured and what lost: docs/theory/step-solver.md.
 //!
 //! A puck of 2 kg on ice of coefficient .1 that moves at 3 m/s, 4 m/s along the two tangents and falls at .1 m/s in this step:
 //!
@@ -38,18 +38,21 @@
 //! ```
 #![allow(clippy::needless_range_loop)] // Loops over several small arrays at once.
 
+mod active_set;
+mod best;
 mod cholesky;
+mod drift;
 mod error;
 mod general;
 mod islands;
 mod law;
 mod local;
-mod map;
 mod matrix;
 mod method;
 mod newton;
 mod problem;
 mod settings;
+mod softened;
 mod solution;
 mod solving;
 mod sweep;

@@ -1,54 +1,49 @@
-//! Newton's method on the natural map, in body space, with a proximal term.
+//! Newton's method on contacts that give way, in body space.
 //!
-//! A step solves, with the map's derivative at every contact ([`Map`]),
+//! With the impulses p(y) of [`Softened`] contacts the velocities of a step are the root of
 //!
 //! ```text
-//! (I - DP + eps) dp + DP E' J dy = -F,    dy = J' dp                                   (1)
-//! (I + J' (I - DP + eps)^-1 DP E' J) dy = -J' (I - DP + eps)^-1 F                      (2)
+//! G(y) = y* - y + J' p(y),    (I + J' N J / eps) dy = G                                  (1)
 //! ```
 //!
-//! (2) has one block for each chunk and for each pair that touches, however many contacts lie between. Many impulses give the same
-//! motion, the normal case, and gaps that differ in the eighth digit say which corner of a face bears: then (1) without eps has no
-//! solution, or many, and with little of it steps are long and lead nowhere. So eps follows the residual (Levenberg and
-//! Marquardt; the proximal point method), and near the end, where it is small, the step is refined to that of (1) without it.
+//! (1) has one block for each chunk and for each pair that touches, however many contacts lie between, and a root whatever the rank of J.
+//! G is smooth but for changes between sticking, sliding and parting, so lengths are tried: a step is taken where the next one, with
+//! the same matrix, would be shorter (Deuflhard's natural level function; the size of G itself says little, as it is stiff in some
+//! directions by 1 / eps).
 
 use crate::{
-    law::project,
-    map::Map,
+    law::{Part, dot},
     matrix::BlockMatrix,
-    sweep::sweep,
+    softened::Softened,
     system::{State, System},
 };
 use drystone_lcp::interrupt::poll;
 
-/// Bounds of eps, which has no unit: of a contact's own yielding, how much softer it is taken. Measured: with less at the
-/// beginning a third more steps fail, with more the end is slow.
-const SOFTNESS: [f64; 2] = [1e-6, 1e-2];
-/// From here on a step is refined.
-const NEARLY_HARD: f64 = 1e-5;
-/// Refinements at most, each until what is left is rounding.
-const REFINEMENTS: usize = 4;
-const REFINED: f64 = 1e-14;
-/// A step is halved so often to make the map less.
-const HALVINGS: usize = 2;
-/// Share of the promised decrease that is asked for (Armijo).
-const DECREASE: f64 = 1e-4;
-/// Where no length makes the map less: the least share of the way to the first contact that lets go.
-const LEAST: f64 = 0.01;
-/// Sweeps after such a step.
-const REPAIRS: usize = 2;
+/// Most steps of a solve.
+const MOST: usize = 15;
+/// The shortest length that is tried. It is taken whatever comes of it.
+const SHORTEST: f64 = 0.01;
+/// Steps that are [`SHORT`] in a row, after which no root is near.
+const SHORT_STEPS: usize = 3;
+const SHORT: f64 = 0.07;
 
-/// What a step takes, made once for an island.
+/// The softened problem and what its steps need, made once for an island.
 pub(crate) struct Newton<const B: usize, const D: usize> {
     matrix: BlockMatrix<B>,
     /// Of every contact and pair of its sides where the block between their chunks is.
     between: Vec<(u32, bool)>,
-    maps: Vec<Map<D>>,
-    dp: Vec<[f64; D]>,
-    change: Vec<[f64; D]>,
-    dy: Vec<[f64; B]>,
-    right: Vec<[f64; B]>,
-    trial: State<B, D>,
+    /// Reference impulses, or changes of them, m/s.
+    reference: Vec<[f64; D]>,
+    /// What each contact does.
+    parts: Vec<Part>,
+    /// The contacts at y.
+    pub contacts: Vec<Softened<D>>,
+    y: Vec<[f64; B]>,
+    /// G there.
+    left: Vec<[f64; B]>,
+    step: Vec<[f64; B]>,
+    next: Vec<[f64; B]>,
+    begin: Vec<[f64; B]>,
 }
 
 impl<const B: usize, const D: usize> Newton<B, D> {
@@ -62,163 +57,209 @@ impl<const B: usize, const D: usize> Newton<B, D> {
         }
         let matrix = BlockMatrix::new(system.free.len(), &pairs)?;
         let between = pairs.iter().map(|&(a, b)| matrix.between(a, b)).collect::<Option<Vec<_>>>()?;
-        let (chunks, contacts) = (vec![[0.0; B]; system.free.len()], vec![[0.0; D]; system.len()]);
+        let chunks = vec![[0.0; B]; system.free.len()];
         Some(Self {
             matrix,
             between,
-            maps: Vec::with_capacity(system.len()),
-            dp: contacts.clone(),
-            change: contacts,
-            dy: chunks.clone(),
-            right: chunks,
-            trial: system.state(),
+            reference: vec![[0.0; D]; system.len()],
+            parts: Vec::new(),
+            contacts: Vec::with_capacity(system.len()),
+            y: chunks.clone(),
+            left: chunks.clone(),
+            step: chunks.clone(),
+            next: chunks.clone(),
+            begin: chunks,
         })
     }
 
-    /// One step; eps is `softness` times as large as usual. False if there is none.
-    pub fn step(&mut self, system: &System<B, D>, state: &mut State<B, D>, softness: f64) -> bool {
-        let square = self.evaluate(system, state);
-        let largest = state.p.iter().zip(&system.contacts).map(|(p, local)| p[0] * local.weight).fold(0.0, f64::max);
-        let eps = (softness * square.sqrt() / largest).clamp(SOFTNESS[0], SOFTNESS[1]);
-        if !(square > 0.0 && self.direction(system, eps)) {
+    /// Solves the problem that is softened by `eps` about the state's impulses, from its velocities; the state
+    /// then has its impulses, and the velocities that these give. What G may leave: `beside` what yielding does, or `small`, m/s. `steps` are
+    /// counted. False, and the state is as it was, if it is not solved.
+    pub fn solve(
+        &mut self,
+        system: &System<B, D>,
+        state: &mut State<B, D>,
+        (eps, beside, small): (f64, f64, f64),
+        steps: &mut usize,
+    ) -> bool {
+        self.begin_at(system, state, eps);
+        let mut short = 0;
+        for _ in 0..MOST {
+            if self.is_near(system, eps, beside, small) {
+                break;
+            }
+            if short == SHORT_STEPS {
+                return false;
+            }
+            *steps += 1;
+            let Some(length) = self.advance(system, eps) else { return false };
+            short = if length < SHORT { short + 1 } else { 0 };
+        }
+        if !self.is_near(system, eps, beside, small) {
             return false;
         }
-        for halvings in 0..=HALVINGS {
-            let length = 0.5_f64.powi(halvings as i32);
-            let mut trial = std::mem::take(&mut self.trial);
-            for (k, p) in trial.p.iter_mut().enumerate() {
-                for i in 0..D {
-                    p[i] = state.p[k][i] + length * self.dp[k][i];
-                }
-            }
-            system.move_by(&mut trial);
-            let after = self.evaluate(system, &trial);
-            if after <= (1.0 - DECREASE * length) * square {
-                std::mem::swap(&mut state.y, &mut trial.y);
-                std::mem::swap(&mut state.p, &mut trial.p);
-                self.trial = trial;
-                return true;
-            }
-            self.trial = trial;
-        }
-        self.let_go(system, state);
+        self.end_at(system, state);
         true
     }
 
-    /// The map everywhere; its square.
-    fn evaluate(&mut self, system: &System<B, D>, state: &State<B, D>) -> f64 {
-        self.maps.clear();
-        let mut sum = 0.0;
-        for k in 0..system.len() {
-            let local = &system.contacts[k];
-            let p = state.p[k].map(|p| p * local.weight);
-            let (map, square) = Map::at(local.friction, &system.relative(k, &state.y), &p);
-            sum += square;
-            self.maps.push(map);
+    /// Finds what each contact does at a state whose velocities are those of its impulses. Whether that differs from the last time.
+    pub fn classify(&mut self, system: &System<B, D>, state: &State<B, D>) -> bool {
+        let part = |k: usize| {
+            let (u, local) = (system.relative(k, &state.y), &system.contacts[k]);
+            let z: [f64; D] = std::array::from_fn(|i| local.weight * state.p[k][i] - u[i]);
+            Part::of(local.friction, &z)
+        };
+        let mut changed = self.parts.len() != system.len();
+        self.parts.resize(system.len(), Part::Parts);
+        for (k, known) in self.parts.iter_mut().enumerate() {
+            let found = part(k);
+            changed |= found != *known;
+            *known = found;
         }
-        sum
+        changed
     }
 
-    /// Where contacts that all bear cannot: along the step until the first one lets go, as an active-set method does.
-    fn let_go(&self, system: &System<B, D>, state: &mut State<B, D>) {
-        let mut length = 1.0_f64;
-        for (p, dp) in state.p.iter().zip(&self.dp) {
-            if p[0] > 0.0 && dp[0] < 0.0 {
-                length = length.min(-p[0] / dp[0]);
+    /// One step to the impulses with which contacts do what they were found to do, by changes of them: what yielding leaves is
+    /// as small beside the changes as eps. With the matrix of the last time unless `anew`. False if there is none.
+    pub fn increment(&mut self, system: &System<B, D>, state: &mut State<B, D>, eps: f64, anew: bool) -> bool {
+        self.contacts.clear();
+        self.left.fill([0.0; B]);
+        for (k, local) in system.contacts.iter().enumerate() {
+            let (u, r) = (system.relative(k, &state.y), state.p[k].map(|p| p * local.weight));
+            let z = std::array::from_fn(|i| r[i] - u[i] / eps);
+            let contact = Softened::with(self.parts[k], local.friction, &z);
+            let change: [f64; D] = std::array::from_fn(|i| contact.p[i] - r[i]);
+            system.give(k, &change.map(|p| p / local.weight), &mut self.left);
+            self.reference[k] = change;
+            self.contacts.push(contact);
+        }
+        if anew {
+            self.assemble(system, eps);
+            if !self.matrix.factor() {
+                return false;
             }
         }
-        length = length.max(LEAST);
-        for ((p, dp), local) in state.p.iter_mut().zip(&self.dp).zip(&system.contacts) {
-            for i in 0..D {
-                p[i] += length * dp[i];
+        self.matrix.solve(&mut self.left);
+        for (k, local) in system.contacts.iter().enumerate() {
+            let mut change = self.reference[k];
+            if let Some(n) = self.contacts[k].derivative() {
+                let u = system.change(k, &self.left);
+                (0..D).for_each(|i| change[i] -= dot(&n[i], &u) / eps);
             }
-            *p = project(local.friction, p).point;
+            (0..D).for_each(|i| state.p[k][i] += change[i] / local.weight);
         }
         system.move_by(state);
-        (0..REPAIRS).for_each(|round| {
-            sweep(system, state, round % 2 == 1);
-        });
+        true
     }
 
-    /// Solves (1) for the impulses.
+    fn begin_at(&mut self, system: &System<B, D>, state: &State<B, D>, eps: f64) {
+        for (k, local) in system.contacts.iter().enumerate() {
+            self.reference[k] = state.p[k].map(|p| p * local.weight);
+        }
+        self.y.clone_from(&state.y);
+        self.evaluate(system, eps);
+    }
+
+    fn end_at(&self, system: &System<B, D>, state: &mut State<B, D>) {
+        for (k, local) in system.contacts.iter().enumerate() {
+            state.p[k] = self.contacts[k].p.map(|p| p / local.weight);
+        }
+        system.move_by(state);
+    }
+
+    /// Solves (1). False if it has no solution.
     fn direction(&mut self, system: &System<B, D>, eps: f64) -> bool {
         self.assemble(system, eps);
         if !self.matrix.factor() {
             return false;
         }
-        self.dp.fill([0.0; D]);
-        self.dy.fill([0.0; B]);
-        let refinements = if eps > NEARLY_HARD { 0 } else { REFINEMENTS };
-        for round in 0..=refinements {
-            let [left, size] = self.residual(system, eps, round > 0);
-            if round > 0 && left <= REFINED * size {
-                break;
-            }
-            self.matrix.solve(&mut self.right);
-            for k in 0..system.len() {
-                let map = &self.maps[k];
-                let taken = map.divided(&map.projected(&map.lifted(&system.change(k, &self.right))), eps);
-                for i in 0..D {
-                    self.dp[k][i] += self.change[k][i] - taken[i];
-                }
-            }
-            self.dy.fill([0.0; B]);
-            for k in 0..system.len() {
-                let weight = system.contacts[k].weight;
-                system.give(k, &self.dp[k].map(|dp| dp / weight), &mut self.dy);
-            }
-        }
-        for (dp, local) in self.dp.iter_mut().zip(&system.contacts) {
-            *dp = dp.map(|dp| dp / local.weight);
-        }
-        self.dp.iter().flatten().all(|dp| dp.is_finite())
+        self.step.clone_from(&self.left);
+        self.matrix.solve(&mut self.step);
+        square(&self.step).is_finite()
     }
 
-    /// What the step so far leaves of (1) without eps, as the right side of (2). The largest of it, and of F.
-    fn residual(&mut self, system: &System<B, D>, eps: f64, begun: bool) -> [f64; 2] {
-        let mut largest = [0.0_f64; 2];
-        self.right.fill([0.0; B]);
-        for k in 0..system.len() {
-            let map = &self.maps[k];
-            let mut left = map.value.map(|value| -value);
-            if begun {
-                let moved = map.projected(&map.lifted(&system.change(k, &self.dy)));
-                let kept = map.projected(&self.dp[k]);
-                for i in 0..D {
-                    left[i] -= self.dp[k][i] - kept[i] + moved[i];
-                }
+    /// Along the step from where it began.
+    fn go(&mut self, length: f64) {
+        for ((y, begin), step) in self.y.iter_mut().zip(&self.begin).zip(&self.step) {
+            for k in 0..B {
+                y[k] = begin[k] + length * step[k];
             }
+        }
+    }
+
+    /// One step. Its length, None if there is none.
+    fn advance(&mut self, system: &System<B, D>, eps: f64) -> Option<f64> {
+        if !self.direction(system, eps) {
+            return None;
+        }
+        self.begin.clone_from(&self.y);
+        let mut length = 1.0;
+        loop {
+            self.go(length);
+            self.evaluate(system, eps);
+            if length < SHORTEST {
+                return Some(length);
+            }
+            self.next.clone_from(&self.left);
+            self.matrix.solve(&mut self.next);
+            if square(&self.next) <= square(&self.step) {
+                return Some(length);
+            }
+            length *= 0.5;
+        }
+    }
+
+    /// Contacts and G at y.
+    fn evaluate(&mut self, system: &System<B, D>, eps: f64) {
+        self.contacts.clear();
+        for ((left, y), free) in self.left.iter_mut().zip(&self.y).zip(&system.free) {
+            for k in 0..B {
+                left[k] = free[k] - y[k];
+            }
+        }
+        for (k, local) in system.contacts.iter().enumerate() {
+            let u = system.relative(k, &self.y);
+            let mut z = self.reference[k];
             for i in 0..D {
-                largest = [largest[0].max(left[i].abs()), largest[1].max(map.value[i].abs())];
+                z[i] -= u[i] / eps;
             }
-            self.change[k] = map.divided(&left, eps);
-            let weight = system.contacts[k].weight;
-            system.give(k, &self.change[k].map(|change| change / weight), &mut self.right);
+            let contact = Softened::at(local.friction, &z);
+            if contact.p[0] > 0.0 {
+                system.give(k, &contact.p.map(|p| p / local.weight), &mut self.left);
+            }
+            self.contacts.push(contact);
         }
-        largest
     }
 
-    /// The matrix of (2).
+    /// Whether what G leaves of the velocities at contacts is small beside what yielding does, or than `small`.
+    fn is_near(&self, system: &System<B, D>, eps: f64, beside: f64, small: f64) -> bool {
+        let (mut left, mut yielding) = (0.0_f64, 0.0_f64);
+        for (k, contact) in self.contacts.iter().enumerate() {
+            let u = system.change(k, &self.left);
+            for i in 0..D {
+                left = left.max(u[i].abs());
+                yielding = yielding.max((contact.p[i] - self.reference[k][i]).abs());
+            }
+        }
+        left <= (beside * eps * yielding).max(small)
+    }
+
+    /// The matrix of (1).
     fn assemble(&mut self, system: &System<B, D>, eps: f64) {
-        poll(8 * B * B * self.between.len());
+        poll(64 * D * B * system.len());
         self.matrix.reset();
         let mut first = 0;
-        for k in 0..system.len() {
+        for (k, local) in system.contacts.iter().enumerate() {
             let sides = system.sides(k);
-            let count = sides.len();
-            let pairs = first;
-            first += count * count.saturating_sub(1) / 2;
-            if !self.maps[k].bears() {
-                continue;
-            }
-            let mut weight = self.maps[k].weight(eps);
-            weight.iter_mut().flatten().for_each(|weight| *weight /= system.contacts[k].weight);
-            let mut pair = pairs;
+            let mut pair = first;
+            first += sides.len() * sides.len().saturating_sub(1) / 2;
+            let Some(mut n) = self.contacts[k].derivative() else { continue };
+            n.iter_mut().flatten().for_each(|n| *n /= eps * local.weight);
             for a in sides.clone() {
-                let of_a = weighted(&weight, &system.rows[a]);
+                let of_a = weighted(&n, &system.rows[a]);
                 add(self.matrix.own(system.chunks[a]), &system.rows[a], &of_a);
                 for b in a + 1..sides.end {
-                    let of_b = weighted(&weight, &system.rows[b]);
+                    let of_b = weighted(&n, &system.rows[b]);
                     let (place, upper) = self.between[pair];
                     pair += 1;
                     add(self.matrix.block(place, upper), &system.rows[a], &of_b);
@@ -229,14 +270,18 @@ impl<const B: usize, const D: usize> Newton<B, D> {
     }
 }
 
+fn square<const B: usize>(x: &[[f64; B]]) -> f64 {
+    x.iter().flatten().map(|x| x * x).sum()
+}
+
 /// `N J`.
 #[inline(always)]
-fn weighted<const B: usize, const D: usize>(weight: &[[f64; D]; D], rows: &[[f64; B]; D]) -> [[f64; B]; D] {
+fn weighted<const B: usize, const D: usize>(n: &[[f64; D]; D], rows: &[[f64; B]; D]) -> [[f64; B]; D] {
     let mut product = [[0.0; B]; D];
     for i in 0..D {
         for j in 0..D {
             for c in 0..B {
-                product[i][c] += weight[i][j] * rows[j][c];
+                product[i][c] += n[i][j] * rows[j][c];
             }
         }
     }

@@ -1,6 +1,7 @@
 //! From the caller's problem to its own unknowns, island by island, and back.
 
 use crate::{
+    best::Goal,
     error::ContactError,
     islands::islands,
     method,
@@ -90,7 +91,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
             p: contacts.iter().map(|&k| state.p[k]).collect(),
             alpha: vec![0.0; contacts.len()],
         };
-        let error = method::solve(&part, &mut own, tolerance, settings, &mut counts);
+        let error = method::solve(&part, &mut own, Goal::new(tolerance, settings.scale), settings, &mut counts);
         worst = if error <= worst { worst } else { error };
         counts.islands += 1;
         contacts.iter().zip(&own.p).for_each(|(&k, p)| state.p[k] = *p);

@@ -43,28 +43,33 @@ fn heap(generator: &mut Pcg64Mcg, layers: usize, friction: f64) -> Bodies {
     problem
 }
 
-/// Solved, by conditions that are computed again; and no energy comes from contacts. Two that wedge at friction .9 are not: the
-/// status says so, and how far off the best is.
+/// Solved, by conditions that are computed again; and no energy comes from contacts.
 #[test]
 fn heaps_obey_the_law() {
     let mut generator = Pcg64Mcg::seed_from_u64(5);
-    let (mut solved, mut all) = (0, 0);
     for round in 0..60 {
         let problem = heap(&mut generator, 1 + round % 4, [0.0, 0.2, 0.5, 0.9][round % 4]);
         let solution = problem.solve(None, &Settings::default()).unwrap();
-        all += 1;
+        assert_eq!(solution.status, Status::Solved, "{round}: {:e}", solution.error);
+        assert!(solution.error <= solution.tolerance);
         let speed = problem.free.iter().fold(0.0_f64, |fastest, v| fastest.max(v.abs()));
-        if solution.status == Status::Solved {
-            solved += 1;
-            assert!(solution.error <= solution.tolerance);
-            assert!(departure(&problem, &solution) <= 1e-6 * speed, "{round}: {:e}", departure(&problem, &solution));
-        } else {
-            assert!(solution.error <= 2e-2 * speed, "{round}: {:e}", solution.error);
-        }
+        assert!(departure(&problem, &solution) <= 1e-6 * speed, "{round}: {:e}", departure(&problem, &solution));
         let (before, after) = (energy(&problem, &problem.free), energy(&problem, &solution.velocities));
         assert!(after <= before * (1.0 + 1e-9), "{round}: {before} to {after}");
     }
-    assert!(solved + 2 >= all, "{solved} of {all}");
+}
+
+/// Large heaps that are hit, in as many Newton steps as a simulation spends on them.
+#[test]
+fn large_heaps_are_solved() {
+    let mut generator = Pcg64Mcg::seed_from_u64(34);
+    let settings = Settings { newton_steps: 200, ..Settings::default() };
+    let mut solved = 0;
+    for round in 0..16 {
+        let problem = heap(&mut generator, 6, [0.3, 0.6][round % 2]);
+        solved += usize::from(problem.solve(None, &settings).unwrap().status == Status::Solved);
+    }
+    assert_eq!(solved, 16);
 }
 
 /// Masses in another unit: the same velocities, to the bit where the factor has a root without rounding.

@@ -112,7 +112,8 @@ impl<S: Moving> World<S> {
         }
         let (problem, motion) = self.solve(&free)?;
         refuse_out_of_bounds(&self.state, &motion.velocities)?;
-        let motionless = motionless_bodies(&self.state.scene, &motion.velocities, self.state.options.dt);
+        let (dt, unseen) = (self.state.options.dt, motion.unseen);
+        let motionless = motionless_bodies(&self.state.scene, &motion.velocities, dt, unseen);
         let projected = integrate(&mut self.state, &mut self.finder, motion.velocities, motionless);
 
         self.previous.impulses = motion.impulses;

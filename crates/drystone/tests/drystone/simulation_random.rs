@@ -32,7 +32,7 @@ fn throw(random: &mut Pcg64, scene: &mut Scene, k: u32) {
 }
 
 /// No energy gained, every problem solved; no overlap deeper than a micrometre but where a small body is jammed between large
-/// ones (1 step of 18,000 here); Coulomb's law in 97 steps of a hundred.
+/// ones (1 step of 18,000 here); Coulomb's law in 99 steps of a hundred.
 #[test]
 fn random_scenes_keep_the_rules() {
     let (mut steps, mut off, mut jammed) = (0, 0, 0);
@@ -53,7 +53,7 @@ fn random_scenes_keep_the_rules() {
             let context = || format!("seed {seed}, step {step}, friction {friction}, dt {dt}");
             let record = world.step().unwrap_or_else(|failure| panic!("{}: {failure}", context()));
             jammed += usize::from(record.penetration > 1e-6);
-            assert!(record.residual <= 1e-9, "{}: {:e}", context(), record.residual);
+            assert!(record.residual <= if record.exact { 1e-8 } else { 1e-4 }, "{}: {:e}", context(), record.residual);
             let now = world.energy();
             assert!(now <= energy + 1e-12 * energy.abs().max(1.0), "{}: {energy} to {now}", context());
             energy = now;
@@ -62,7 +62,7 @@ fn random_scenes_keep_the_rules() {
         }
     }
     assert!(jammed <= 5, "{jammed} of {steps} steps");
-    assert!(100 * off <= 3 * steps, "{off} of {steps} steps");
+    assert!(100 * off <= steps, "{off} of {steps} steps");
 }
 
 /// With any restitution and friction, whatever the formulation, no step gives energy.

@@ -60,7 +60,7 @@ pub fn stay_at_rest<S: Kinematics>(
     let mut velocities = contacts.velocities(&free, &state.inverse_mass, |row| p[row]);
     let residual = residual(state, &StepProblem { free: &free, ..*step }, &velocities, &p);
     // Beside large impulses a residual that may stand could still move a small body.
-    let still = motionless_bodies(&state.scene, &velocities, state.options.dt);
+    let still = motionless_bodies(&state.scene, &velocities, state.options.dt, 0.0);
     if residual > Settings::default().residual || still.contains(&false) {
         return None;
     }
@@ -76,6 +76,7 @@ pub fn stay_at_rest<S: Kinematics>(
         impulses: (0..contacts.candidates().len()).map(|k| contacts.impulse(k, |row| p[row])).collect(),
         friction_error,
         exact: true,
+        unseen: 0.0,
         residual,
         solves: 1,
         rows_reused: 0,

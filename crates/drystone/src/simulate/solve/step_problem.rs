@@ -33,6 +33,8 @@ pub struct Motion<S: Kinematics = Polygon> {
     pub friction_error: f64,
     /// Whether that is within the tolerance.
     pub exact: bool,
+    /// Slower than this, m/s, a body may be at rest: how far the velocities are known. Zero for pivots, which know them to rounding.
+    pub unseen: f64,
     pub residual: f64,
     pub solves: usize,
     pub rows_reused: usize,
