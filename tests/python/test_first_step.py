@@ -35,3 +35,17 @@ def test_many_blocks_that_fall_at_once_take_few_pivots() -> None:
     assert sum(record.motionless) == 1
     assert record.pivots < 300
     assert record.exact
+
+
+def test_a_loose_brick_on_a_wall_that_stands_takes_few_pivots() -> None:
+    """What falls at once need not be much: pivots from nothing took seconds."""
+    scene = ds.scenes.brick_wall(8, 8)
+    right, _, top = scene.bodies[-1].vertices.max(axis=0)
+    scene.add_box((right + 0.4, 0, top + 0.25), (1.6, 0.5, 0.5), name="loose")
+    world = ds.World(scene)
+    records = [world.step() for _ in range(10)]
+    assert records[0].rows > 4000
+    assert records[0].pivots < 600
+    assert all(record.exact for record in records)
+    still = dict(zip(world.names, records[-1].motionless, strict=True))
+    assert [name for name, still in still.items() if not still] == ["loose"]
