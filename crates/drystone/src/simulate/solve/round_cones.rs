@@ -36,7 +36,7 @@ const MANY: usize = 4;
 /// half the time, with 10 in the same.
 const MANY_IN_PLANE: usize = 16;
 
-/// An impact that is so many times as fast as what gravity gives in a step changes what bears all over a pile: pivots, whose pyramids
+/// An impact, in this step, of what comes so many times as fast as gravity makes it in a step changes what bears all over a pile: pivots, whose pyramids
 /// have eight rows a contact, take seconds where Newton's method takes milliseconds.
 const IMPACT: f64 = 10.0;
 
@@ -78,7 +78,7 @@ fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, s
     let fall = norm(state.scene.gravity().as_ref()) * state.options.dt;
     let hits = |(k, offset): (usize, &f64)| {
         let [opening, _] = step.contacts.opening_and_sliding(k, step.free);
-        opening + offset < -IMPACT * fall
+        opening + offset < 0.0 && opening < -IMPACT * fall
     };
     let enough = axes::<S>() == 3 || moving >= MANY_IN_PLANE;
     (previous.problem.is_some() && !kept)
