@@ -417,7 +417,11 @@ impl Assembly {
         &self,
         generators: impl Iterator<Item = &'a Generator>,
     ) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
-        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        let count = generators.size_hint().0;
+        let entries = 2 * self.components.len() * count;
+        let (mut indptr, mut indices) = (Vec::with_capacity(count + 1), Vec::with_capacity(entries));
+        let mut data = Vec::with_capacity(entries);
+        indptr.push(0);
         for generator in generators {
             poll(GENERATOR);
             for wrench in self.wrenches(generator) {
