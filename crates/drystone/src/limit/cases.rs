@@ -1,9 +1,9 @@
 //! Does a structure stand under each of many load cases: sums of a few loads, each times a factor?
 //!
 //! The loads under which it stands are a convex cone, and what proves a case proves others. Forces well inside the friction cones
-//! at one case follow the factors linearly ([`Nearby`]), and hold all cases for which they stay inside. A mechanism brings down
+//! at one case follow the factors linearly ([`Barrier::changes`]), and hold all cases for which they stay inside. A mechanism brings down
 //! all cases in which the loads do work in it, which is linear in the factors too. Only a case that neither tells is looked at by
-//! itself, and adds one or the other: forces follow the loads towards it until they hold it, or a mechanism stops them ([`Walker`]).
+//! itself, and adds one or the other: forces follow the loads towards it until they hold it, or a mechanism stops them ([`Barrier::walk`]).
 
 use super::{
     centre::{Centre, Centres},
@@ -20,7 +20,7 @@ use crate::{
     threads::at_once,
 };
 #[cfg(doc)]
-use drystone_lcp::interior::{Nearby, Walker};
+use drystone_lcp::interior::Barrier;
 use drystone_lcp::{Status, interior::End};
 use std::sync::Arc;
 

@@ -5,7 +5,7 @@ use crate::{
     judgement::AT_REST,
     proof::accelerations_under,
 };
-use drystone_lcp::interior::{Cone, Gauss, Nearby, Walked, Walker};
+use drystone_lcp::interior::{Barrier, Cone, Gauss, Walked};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Most centres: each takes as much memory as forces for every load.
@@ -134,9 +134,8 @@ pub(super) struct Centres<'a> {
     space: BodySpace<'a>,
     /// The loads in the problem's terms.
     loads: Vec<Vec<f64>>,
-    nearby: Nearby,
     /// Those that nobody uses at the moment: as many as there were threads at once.
-    walkers: Mutex<Vec<Walker>>,
+    barriers: Mutex<Vec<Barrier>>,
     kept: usize,
 }
 
@@ -144,10 +143,9 @@ impl<'a> Centres<'a> {
     /// None if there is no memory for a factor.
     pub fn new(assembly: &'a Assembly, blocks: &'a BlockSet, pushes: &[Push], cone: FrictionCone) -> Option<Self> {
         let space = assembly.body_space(blocks, cone);
-        let nearby = Nearby::new(space.problem())?;
+        let barriers = Mutex::new(vec![Barrier::new(space.problem())?]);
         let loads = pushes.iter().map(|push| space.load(push)).collect();
-        let walkers = Mutex::default();
-        Some(Self { blocks, loads, nearby, walkers, kept: 0, space })
+        Some(Self { blocks, loads, barriers, kept: 0, space })
     }
 
     /// The problem.
@@ -163,15 +161,20 @@ impl<'a> Centres<'a> {
         };
         let own = &self.space.problem().load;
         let (load, more) = (sum(own, &from.case), sum(&vec![0.0; own.len()], &from.away(case)));
-        let free = || self.walkers.lock().unwrap_or_else(PoisonError::into_inner);
+        self.with_barrier(|barrier| barrier.walk(&from.forces, &load, &more))
+    }
+
+    /// What is found with one that nobody uses, or a new one. None if there is no memory for that, or nothing was found.
+    fn with_barrier<T>(&self, find: impl FnOnce(&mut Barrier) -> Option<T>) -> Option<T> {
+        let free = || self.barriers.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = free().pop();
-        let mut walker = match kept {
-            Some(walker) => walker,
-            None => Walker::new(self.space.problem())?,
+        let mut barrier = match kept {
+            Some(barrier) => barrier,
+            None => Barrier::new(self.space.problem())?,
         };
-        let walked = walker.walk(&from.forces, &load, &more);
-        free().push(walker);
-        walked
+        let found = find(&mut barrier);
+        free().push(barrier);
+        found
     }
 
     /// Whether the forces of a centre hold a case that they follow for such a share of the way.
@@ -186,12 +189,11 @@ impl<'a> Centres<'a> {
 
     /// Keeps forces that hold a case, whose loads act on `pushed`, if they are inside the cones, as long as there is room.
     pub fn keep(&mut self, pushed: &Assembly, case: Vec<f64>, forces: Vec<f64>) -> Option<Arc<Centre>> {
-        let usable = self.inside(&forces) && self.kept < MOST;
-        if !usable || !self.nearby.at(&forces) {
+        if !self.inside(&forces) || self.kept >= MOST {
             return None;
         }
+        let changes = self.with_barrier(|barrier| barrier.changes(&forces, &self.loads))?;
         self.kept += 1;
-        let changes = self.nearby.changes(&self.loads);
         let speeds = |under: &[(usize, Components)]| -> Vec<f64> {
             under.iter().map(|(block, a)| pushed.speed(*block, a)).collect()
         };

@@ -25,11 +25,13 @@
 //! *When.* From nothing, or where friction must carry much: some ten to twenty iterations whatever the size. Where one block
 //! comes or goes, [`cone`](crate::cone) is hundreds of times faster. What was measured: docs/theory/interior-point.md.
 
+mod barrier;
 mod block_cholesky;
 mod blocks;
 mod layers;
 mod matrix;
 mod method;
+mod metric;
 mod nearby;
 mod problem;
 mod resting;
@@ -39,9 +41,9 @@ mod solving;
 mod supernodes;
 mod walk;
 
+pub use barrier::Barrier;
 pub use layers::Layers;
 pub use method::{End, Found};
-pub use nearby::Nearby;
 pub use problem::{Cone, Gauss, Point};
 pub use solving::worth_of_pivots;
-pub use walk::{Walked, Walker};
+pub use walk::Walked;

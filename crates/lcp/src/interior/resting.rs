@@ -7,14 +7,13 @@
 //! min sum (df_j / f_j)^2   over   J' df = -(F + J' f)
 //! ```
 //!
-//! is `df = f^2 J y` with `J' f^2 J y = -(F + J' f)`, one factor of the same pattern as (3). If it leaves all forces positive they
+//! is `df = f^2 J y` with `J' f^2 J y = -(F + J' f)`, one factor: the metric of the cones' barrier (`metric.rs`). If it leaves all forces positive they
 //! hold the bodies; if not, it is cut short and made again from there (the affine scaling of I. I. Dikin, 1967).
 
 use super::{
-    matrix::BodyMatrix,
     method::{End, Found, REST},
+    metric::Metric,
     problem::{Cone, Gauss},
-    scaled::Scaled,
 };
 
 /// In the problem's own scale, where the largest load is one: a force of which nothing is known.
@@ -48,29 +47,28 @@ impl Gauss {
 }
 
 struct Resting<const B: usize, const D: usize> {
-    problem: Scaled<B, D, 2>,
-    matrix: BodyMatrix<B>,
+    metric: Metric<B, D>,
     f: Vec<f64>,
-    /// `-(F + J' f)`, and then y.
+    /// `F + J' f`, and then -y.
     left: Vec<[f64; B]>,
-    /// `J y`, and then `df`.
+    /// `df`.
     change: Vec<f64>,
 }
 
 impl<const B: usize, const D: usize> Resting<B, D> {
     fn new(problem: &Gauss, forces: &[f64]) -> Option<Self> {
-        let problem = Scaled::<B, D, 2>::new(problem);
+        let metric = Metric::new(problem)?;
         let known = |f: f64| if f > 0.0 { f } else { UNKNOWN };
-        let f: Vec<f64> = problem.in_own_units(forces).into_iter().map(known).collect();
-        let (left, change) = (vec![[0.0; B]; problem.load.len()], vec![0.0; f.len()]);
-        Some(Self { matrix: BodyMatrix::new(&problem)?, problem, f, left, change })
+        let f: Vec<f64> = metric.problem.in_own_units(forces).into_iter().map(known).collect();
+        let (left, change) = (vec![[0.0; B]; metric.problem.load.len()], vec![0.0; f.len()]);
+        Some(Self { metric, f, left, change })
     }
 
     fn found(mut self) -> Option<Found> {
         for iterations in 0..=MOST {
             if self.is_at_rest() {
                 let accelerations = vec![0.0; B * self.left.len()];
-                let (forces, bearing) = (self.problem.in_newtons(&self.f), vec![true; self.f.len()]);
+                let (forces, bearing) = (self.metric.problem.in_newtons(&self.f), vec![true; self.f.len()]);
                 return Some(Found {
                     end: End::AtRest,
                     accelerations,
@@ -90,9 +88,10 @@ impl<const B: usize, const D: usize> Resting<B, D> {
 
     /// Whether what the forces leave of each body's load is none.
     fn is_at_rest(&mut self) -> bool {
-        self.left.iter_mut().zip(&self.problem.load).for_each(|(left, load)| *left = load.map(|load| -load));
-        self.problem.add_wrenches(&self.f, -1.0, &mut self.left);
-        self.left.iter().zip(&self.problem.load).all(|(left, load)| {
+        let problem = &self.metric.problem;
+        self.left.copy_from_slice(&problem.load);
+        problem.add_wrenches(&self.f, 1.0, &mut self.left);
+        self.left.iter().zip(&problem.load).all(|(left, load)| {
             let own = load.iter().fold(0.0_f64, |largest, load| largest.max(load.abs()));
             left.iter().all(|left| left.abs() <= REST * own)
         })
@@ -100,18 +99,9 @@ impl<const B: usize, const D: usize> Resting<B, D> {
 
     /// None if it leads nowhere.
     fn step(&mut self) -> Option<()> {
-        self.matrix.reset(|_| PROXIMAL);
-        for (index, point) in self.problem.points.iter().enumerate() {
-            let mut weight = [[0.0; D]; D];
-            for (edge, f) in self.problem.edges[point.own()].iter().zip(&self.f[point.own()]) {
-                (0..D).for_each(|i| (0..D).for_each(|k| weight[i][k] += f * f * edge[i] * edge[k]));
-            }
-            self.matrix.add(index, point, &weight);
-        }
-        self.matrix.factor()?;
-        self.matrix.solve(&mut self.left);
-        self.problem.motion(&self.left, &mut self.change);
-        self.change.iter_mut().zip(&self.f).for_each(|(change, f)| *change *= f * f);
+        self.metric.factor(&self.f, PROXIMAL)?;
+        self.change.fill(0.0);
+        self.metric.take_up(&self.f, &mut self.left, &mut self.change);
         let pulls = self.change.iter().zip(&self.f).map(|(change, f)| -change / f).fold(0.0, f64::max);
         let length = if pulls < SHARE { 1.0 } else { SHARE / pulls };
         if !pulls.is_finite() || length < LEAST {

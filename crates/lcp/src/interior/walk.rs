@@ -1,7 +1,7 @@
 //! How far a load can grow, from forces well inside the cones that hold it.
 //!
 //! Forces f inside the cones hold the bodies under F, and are to follow F + t dF as far as there are any, or to t = 1. With D the
-//! inverse of the Hessian of the cones' logarithmic barrier at f, and r what f leaves of the load, a step is
+//! inverse of the Hessian of the cones' barrier at f (`metric.rs`), and r what f leaves of the load, a step is
 //!
 //! ```text
 //! df = alpha (f - D J v0) - dt D J v1,   (J' D J) v0 = J' f + r,   (J' D J) v1 = dF     (1)
@@ -14,14 +14,7 @@
 //! and I. Adler 1989 on such steps and their multipliers). Then nothing has to converge: a step or two suffice for what is
 //! borne, and the bound says when the rest is not worth its time.
 
-use super::{
-    matrix::BodyMatrix,
-    method::product,
-    nearby::{give_way, weight},
-    problem::Gauss,
-    scaled::Scaled,
-    scaling::way_to_border,
-};
+use super::{method::product, metric::Metric, scaling::way_to_border};
 
 /// Steps: 3 for what is borne and 10 for what is not, about.
 const MOST: usize = 40;
@@ -46,66 +39,15 @@ pub struct Walked {
     pub bound: f64,
 }
 
-/// The matrix of (1), analysed once.
-#[derive(Debug)]
-pub struct Walker {
-    kind: Kind,
-}
-
-#[derive(Debug)]
-enum Kind {
-    Plane(Box<Kept<3, 2>>),
-    Space(Box<Kept<6, 3>>),
-}
-
-struct Kept<const B: usize, const D: usize> {
-    problem: Scaled<B, D, 2>,
-    matrix: BodyMatrix<B>,
-}
-
-impl Walker {
-    /// None if there is no memory for it.
-    ///
-    /// # Panics
-    /// If bodies have neither 3 nor 6 unknowns.
-    pub fn new(problem: &Gauss) -> Option<Self> {
-        let kind = match problem.size {
-            3 => Kind::Plane(Box::new(Kept::new(problem)?)),
-            6 => Kind::Space(Box::new(Kept::new(problem)?)),
-            size => panic!("a body has 3 or 6 unknowns, not {size}"),
-        };
-        Some(Self { kind })
-    }
-
-    /// From forces inside the cones that hold the bodies under a load, body after body, as far as they can follow `more`, or to all
-    /// of it. None where that leads nowhere, which proves nothing.
-    pub fn walk(&mut self, forces: &[f64], load: &[f64], more: &[f64]) -> Option<Walked> {
-        match &mut self.kind {
-            Kind::Plane(kept) => kept.walk(forces, load, more),
-            Kind::Space(kept) => kept.walk(forces, load, more),
-        }
-    }
-}
-
-impl<const B: usize, const D: usize> std::fmt::Debug for Kept<B, D> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Kept").finish_non_exhaustive()
-    }
-}
-
-impl<const B: usize, const D: usize> Kept<B, D> {
-    fn new(problem: &Gauss) -> Option<Self> {
-        let problem = Scaled::new(problem);
-        Some(Self { matrix: BodyMatrix::new(&problem)?, problem })
-    }
-
-    fn walk(&mut self, forces: &[f64], load: &[f64], more: &[f64]) -> Option<Walked> {
+impl<const B: usize, const D: usize> Metric<B, D> {
+    /// See [`Barrier::walk`](super::Barrier::walk).
+    pub(super) fn walk(&mut self, forces: &[f64], load: &[f64], more: &[f64]) -> Option<Walked> {
         let mut f = self.problem.in_own_units(forces);
         let (load, more) = (self.problem.load_in_own_units(load), self.problem.load_in_own_units(more));
         let (mut share, mut bound, mut motion) = (0.0, f64::INFINITY, Vec::new());
         let (mut centring, mut growth) = (vec![0.0; f.len()], vec![0.0; f.len()]);
         for _ in 0..MOST {
-            self.factor(&f)?;
+            self.factor(&f, 0.0)?;
             let v0 = self.centring(&f, &plus(&load, share, &more), &mut centring);
             let v1 = self.give_way(&f, more.clone(), &mut growth);
             let alpha = (CENTRING * way_to_border(&self.problem, &f, &centring)).min(1.0);
@@ -136,15 +78,6 @@ impl<const B: usize, const D: usize> Kept<B, D> {
         None
     }
 
-    /// The matrix of (1). None if some body could not be held by these forces whatever they were.
-    fn factor(&mut self, f: &[f64]) -> Option<()> {
-        self.matrix.reset(|_| 0.0);
-        for (index, point) in self.problem.points.iter().enumerate() {
-            self.matrix.add(index, point, &weight(&self.problem, point, f));
-        }
-        self.matrix.factor().map(drop)
-    }
-
     /// Newton's step towards the largest barrier under a load, and its v0.
     fn centring(&mut self, f: &[f64], load: &[[f64; B]], change: &mut [f64]) -> Vec<[f64; B]> {
         let mut left = load.to_vec();
@@ -156,13 +89,8 @@ impl<const B: usize, const D: usize> Kept<B, D> {
 
     /// `v = (J' D J)^-1 load` and the change `-D J v`, which takes the load up.
     fn give_way(&mut self, f: &[f64], mut load: Vec<[f64; B]>, change: &mut [f64]) -> Vec<[f64; B]> {
-        self.matrix.solve(&mut load);
-        let mut moved = vec![0.0; f.len()];
-        self.problem.motion(&load, &mut moved);
         change.fill(0.0);
-        for point in &self.problem.points {
-            give_way(point.round, &f[point.own()], &moved[point.own()], &mut change[point.own()]);
-        }
+        self.take_up(f, &mut load, change);
         load
     }
 
@@ -181,7 +109,7 @@ impl<const B: usize, const D: usize> Kept<B, D> {
     /// forces that can follow other loads further, but not so much that it pays.
     fn settle(&mut self, f: &mut [f64], load: &[[f64; B]], change: &mut [f64]) -> Option<()> {
         for _ in 0..MOST {
-            self.factor(f)?;
+            self.factor(f, 0.0)?;
             self.centring(f, load, change);
             let alpha = (REACH * way_to_border(&self.problem, f, change)).min(1.0);
             let before = f.to_vec();
@@ -204,10 +132,7 @@ fn plus<const B: usize>(a: &[[f64; B]], factor: f64, b: &[[f64; B]]) -> Vec<[f64
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        super::{Cone, Gauss, Point},
-        Walker,
-    };
+    use super::super::{Barrier, Cone, Gauss, Point};
 
     /// A body of mass 2 on points 1 m apart, under its weight of 20 N and a friction of a half: it bears 10 N sideways.
     fn block(round: bool) -> (Gauss, Vec<f64>) {
@@ -257,8 +182,8 @@ mod tests {
         for round in [false, true] {
             let (problem, forces) = block(round);
             let more = sideways(problem.size, 9.9);
-            let mut walker = Walker::new(&problem).expect("memory");
-            let walked = walker.walk(&forces, &problem.load, &more).expect("it leads there");
+            let mut barrier = Barrier::new(&problem).expect("memory");
+            let walked = barrier.walk(&forces, &problem.load, &more).expect("it leads there");
             assert!(walked.share == 1.0, "{walked:?}");
             assert!(left(&problem, &walked.forces, &problem.load, &more) < 1e-12, "{walked:?}");
             for point in walked.forces.chunks(if round { 3 } else { 1 }) {
@@ -271,8 +196,8 @@ mod tests {
     fn a_motion_bounds_what_is_not_borne() {
         for round in [false, true] {
             let (problem, forces) = block(round);
-            let mut walker = Walker::new(&problem).expect("memory");
-            let walked = walker.walk(&forces, &problem.load, &sideways(problem.size, 40.0)).expect("it leads there");
+            let mut barrier = Barrier::new(&problem).expect("memory");
+            let walked = barrier.walk(&forces, &problem.load, &sideways(problem.size, 40.0)).expect("it leads there");
             // A quarter of the 40 N; the bound is a proof, so never below.
             assert!(walked.share <= 0.25 && 0.25 <= walked.bound, "{walked:?}");
             assert!(walked.bound - walked.share <= 0.1 * walked.share, "{walked:?}");
@@ -284,9 +209,9 @@ mod tests {
     #[test]
     fn nothing_limits_more_weight() {
         let (problem, forces) = block(false);
-        let mut walker = Walker::new(&problem).expect("memory");
+        let mut barrier = Barrier::new(&problem).expect("memory");
         let more = vec![0.0, -1e3, 0.0];
-        let walked = walker.walk(&forces, &problem.load, &more).expect("it leads there");
+        let walked = barrier.walk(&forces, &problem.load, &more).expect("it leads there");
         assert!(walked.share == 1.0 && walked.bound.is_infinite(), "{walked:?}");
         assert!(left(&problem, &walked.forces, &problem.load, &more) < 1e-10, "{walked:?}");
     }
