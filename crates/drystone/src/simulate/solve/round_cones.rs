@@ -72,7 +72,7 @@ fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, s
     if state.is_at_rest() && !kept {
         return axes::<S>() == 3 && step.contacts.len() >= MANY_ROWS;
     }
-    if fast(state, &state.velocities) == 0 {
+    if all_are_slow(state) {
         return false;
     }
     let fall = norm(state.scene.gravity().as_ref()) * state.options.dt;
@@ -86,10 +86,10 @@ fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, s
         || (enough && step.offsets.iter().enumerate().any(hits))
 }
 
-/// How many of these velocities are not [`SLOW`].
-fn fast<S: Kinematics>(state: &State<S>, velocities: &[S::Velocity]) -> usize {
+/// Whether no velocity is above [`SLOW`].
+fn all_are_slow<S: Kinematics>(state: &State<S>) -> bool {
     let slow = SLOW * norm(state.scene.gravity().as_ref()) * state.options.dt;
-    velocities.iter().filter(|velocity| norm(velocity.as_ref()) > slow).count()
+    state.velocities.iter().all(|velocity| norm(velocity.as_ref()) <= slow)
 }
 
 /// Solves a step on round cones. None where it is left to pivots, or nothing near the law was found.
