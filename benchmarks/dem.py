@@ -15,8 +15,8 @@ leaves open. Of structures of more than 300 contacts, whose programs take minute
 at.
 
 Times are of the processor, the least of a few: RBE's `Problem.solve` with its interfaces known,
-ours `check` with contacts found, and again with the forces of least norm, which RBE's are too, in
-another norm.
+ours reading the model, `check` with contacts found, and again with the forces of least norm, which
+RBE's are too, in another norm.
 """
 
 from __future__ import annotations
@@ -35,13 +35,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import compas.geometry as cg
 import highspy
 import numpy as np
-from compas_dem.material import Stone
 from compas_dem.models import BlockModel
-from compas_dem.problem import Problem, Solver
-from compas_dem.templates import ArchTemplate, BarrelVaultTemplate
+from compas_dem.problem import Solver
 from scipy.sparse import csc_matrix
 
 import drystone as ds
@@ -49,9 +46,11 @@ from drystone import _core, imports
 from drystone.statics import QuietHighs
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "python"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "compas_drystone" / "tests"))
+from reference_models import FRICTION, arch, barrel_vault, problem_of, three_blocks, two_blocks
+
 from limit_programs import balance
 
-FRICTION = 0.5
 UNIQUE = 1e-6
 """Range of a component, of the weight of all."""
 
@@ -65,47 +64,8 @@ REPEATS = 5
 
 COLUMNS = (
     *("structure", "blocks", "contacts", "resultants", "unique components", "apart"),
-    *("RBE, s", "check, s", "with forces, s", "RBE / check", "RBE / with forces"),
+    *("RBE, s", "read, s", "check, s", "with forces, s", "RBE / check", "RBE / with forces"),
 )
-
-
-def _box(corner: tuple[float, float, float], width: float, height: float) -> cg.Box:
-    x, y, z = corner
-    return cg.Box.from_corner_corner_height([x, y, z], [x + width, y + 1, z], height)
-
-
-def _of_boxes(boxes: list[cg.Box]) -> BlockModel:
-    """The lowest is the support."""
-    model = BlockModel.from_boxes(boxes)
-    lowest = min(model.elements(), key=lambda block: block.point[2])
-    lowest.is_support = True
-    return model
-
-
-def two_blocks() -> BlockModel:
-    return _of_boxes([_box((0, 0, -0.1), 1, 0.1), _box((0, 0, 0), 1, 1), _box((0, 0, 1), 1, 1)])
-
-
-def three_blocks() -> BlockModel:
-    feet = [_box((0, 0, 0), 1, 1), _box((1.1, 0, 0), 1, 1)]
-    return _of_boxes([_box((0, 0, -0.1), 2.1, 0.1), *feet, _box((0.55, 0, 1), 1, 1)])
-
-
-def arch() -> BlockModel:
-    template = ArchTemplate(rise=4.393, span=21.213, thickness=0.5, depth=3.0, n=30)
-    model = BlockModel.from_template(template)
-    for block in model.elements():
-        block.is_support = block.graphnode in (0, 29)
-    return model
-
-
-def barrel_vault() -> BlockModel:
-    template = BarrelVaultTemplate(length=3, span=7, rise=0.1, vou_length=13)
-    model = BlockModel.from_barrelvault(template)
-    model.compute_contacts()
-    for node in model.graph.nodes_where(degree=1):
-        model.graph.node_element(node).is_support = True
-    return model
 
 
 def main() -> int:
@@ -128,16 +88,11 @@ def compared(build: Callable[[], BlockModel]) -> tuple[list[Any], float]:
     """A row, and how far unique components are apart."""
     model = build()
     model.compute_contacts()
-    stone = Stone.from_predefined_material("LimeStone")
-    stone.density = 2000
-    model.add_material(stone)
-    model.assign_material(stone, elements=list(model.elements()))
-    problem = Problem(model)
-    problem.set_contact_model("MohrCoulomb", mu=FRICTION)
+    problem = problem_of(model)
     problem.set_solver(Solver.RBE())
     with contextlib.redirect_stdout(io.StringIO()):
         results, rbe = least(lambda: problem.solve(verbose=False))
-    scene = imports.load(model, friction=FRICTION).scene
+    scene, reading = least(lambda: imports.load(model, friction=FRICTION).scene)
     contacts = len(scene.contacts)
     verdict, alone = least(lambda: ds.check(scene))
     assert verdict.stable
@@ -155,7 +110,7 @@ def compared(build: Callable[[], BlockModel]) -> tuple[list[Any], float]:
             theirs = results.resultant_global(pair)[axis]
             apart = max(apart, abs(theirs - ours[pair][axis]) / weight)
     blocks = len(list(model.elements()))
-    times = [f"{value:.2g}" for value in (rbe, alone, with_forces)]
+    times = [f"{value:.2g}" for value in (rbe, reading, alone, with_forces)]
     ratios = [f"{rbe / value:.0f}" for value in (alone, with_forces)]
     told = [build.__name__, blocks, contacts, len(pairs), unique, f"{apart:.1e}"]
     return [*told, *times, *ratios], apart
