@@ -1,5 +1,5 @@
 """MuJoCo: in the plane boxes one metre deep, each on two slides and a hinge; in space free bodies.
-Friction cones are pyramids.
+Friction cones are pyramids unless elliptic ones are asked for.
 
 Its settings are its own (Newton's method, Euler integration) but for the time step and the
 friction. It never sleeps.
@@ -32,6 +32,9 @@ class MuJoCo(Simulator):
     name = "MuJoCo"
     dimensions = (2, 3)
 
+    def __init__(self, cone: str = "pyramidal") -> None:
+        self.cone = cone
+
     def version(self) -> str:
         """See `Simulator.version`."""
         try:
@@ -48,7 +51,7 @@ class MuJoCo(Simulator):
         import mujoco
 
         bodies = json.loads(scene.to_json())["bodies"]
-        model = mujoco.MjModel.from_xml_string(_xml(scene, bodies, dt))
+        model = mujoco.MjModel.from_xml_string(_xml(scene, bodies, dt, self.cone))
         data = mujoco.MjData(model)
         states = _states if scene.dimension == 2 else _states_in_space
         frames = [states(bodies, data)]
@@ -61,7 +64,7 @@ class MuJoCo(Simulator):
         return Motion(seconds, np.array(frames))
 
 
-def _xml(scene: ds.Scene, bodies: list[dict[str, Any]], dt: float) -> str:
+def _xml(scene: ds.Scene, bodies: list[dict[str, Any]], dt: float, cone: str) -> str:
     """The plane is MuJoCo's x and z. Its y axis points away, so that angles change sign."""
     if scene.dimension == 2:
         gravity, made = (scene.gravity[0], 0.0, scene.gravity[1]), _body
@@ -69,7 +72,7 @@ def _xml(scene: ds.Scene, bodies: list[dict[str, Any]], dt: float) -> str:
         gravity, made = scene.gravity, _free_body
     return f"""<mujoco>
   <compiler angle="radian"/>
-  <option timestep="{dt!r}" gravity="{_spaced(gravity)}" cone="pyramidal"/>
+  <option timestep="{dt!r}" gravity="{_spaced(gravity)}" cone="{cone}"/>
   <size memory="500M"/>
   <default><geom type="box" condim="3"/></default>
   <worldbody>{"".join(made(body, scene.friction) for body in bodies)}</worldbody>

@@ -14,6 +14,7 @@ import drystone as ds
 BENCHMARKS = str(Path(__file__).parents[2] / "benchmarks")
 sys.path.insert(0, BENCHMARKS)
 
+import heaps  # noqa: E402
 import judge  # noqa: E402
 import simulation  # noqa: E402
 from simulators import SIMULATORS  # noqa: E402
@@ -142,3 +143,9 @@ def test_a_scene_measured_in_turns(dimension: int) -> None:
         assert result.penetration < 1e-12
         assert result.energy_rise < 1e-9
     assert case.ratio(case.results["full"]) == 1.0
+
+
+def test_heaps_that_are_timed_obey_the_law() -> None:
+    run = ds.simulate(heaps.heap(10), heaps.DT, 240)
+    assert run.not_exact == 0
+    assert len(heaps.cells(run)) == 3
