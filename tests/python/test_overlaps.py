@@ -64,3 +64,22 @@ def test_the_command_line_draws_a_file(cli: Callable[..., Ran], tmp_path: Path) 
     missing = cli("scene", "missing.json", "-o", tmp_path / "d.svg")
     assert missing.status == 2
     assert "missing.json" in missing.err
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_they_are_taken_back(dimension: int) -> None:
+    scene = overlapping(dimension)
+    parted = scene.parted()
+    assert parted.overlaps == []
+    assert len(scene.overlaps) == 2
+    assert ds.simulate(parted, steps=1).finished
+    assert parted.parted().to_json() == parted.to_json()
+
+
+def test_what_cannot_part_is_an_overlap() -> None:
+    scene = ds.Scene(friction=0.5)
+    for x in (-1, 1):
+        scene.add_box((x, 0), (1, 20), fixed=True)
+    scene.add_box((0, 0), (1.2, 1), name="jammed")
+    with pytest.raises(ds.SceneError, match="overlap by"):
+        scene.parted()

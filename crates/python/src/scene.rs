@@ -3,7 +3,7 @@
 use crate::{
     arrays::matrix,
     coordinates::Coordinates,
-    errors::scene_error,
+    errors::{scene_error, simulation_error},
     watch::{interruptible, look},
 };
 use drystone::{
@@ -12,7 +12,7 @@ use drystone::{
     find_contacts,
     formulate::{self, Assembly, Cones},
     geometry::{PoseInSpace, Shape},
-    io, scenes,
+    io, scenes, simulate,
     unsupported::{explain, near_misses},
 };
 use numpy::{Element, PyArray2, PyReadonlyArray2};
@@ -405,6 +405,17 @@ impl Scene {
         let planar = self.planar()?;
         let solid = raised(interruptible(py, || scenes::extruded(&planar, depth))?)?;
         Ok(Self::of(solid.into()))
+    }
+
+    /// The same scene with overlaps taken back.
+    fn parted(&self, py: Python<'_>) -> PyResult<Self> {
+        let scene = self.now();
+        let parted = interruptible(py, || match (*scene).clone() {
+            AnyScene::Plane(scene) => simulate::parted(scene).map(AnyScene::from),
+            AnyScene::Space(scene) => simulate::parted(scene).map(AnyScene::from),
+        })?
+        .map_err(|error| simulation_error(&error))?;
+        Ok(Self::of(parted))
     }
 
     /// The same scene once more; one that shares its bodies until either changes.

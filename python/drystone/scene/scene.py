@@ -159,6 +159,25 @@ class Scene(Adding, Paged):
         """
         return Scene._of(self._core.extruded(depth))
 
+    def parted(self) -> Scene:
+        """The same scene with overlaps taken back, for what was drawn or measured with them.
+
+        Blocks that overlap move apart by the least motion, weighed by their masses, a turn with
+        their moments of inertia: to first order in each of several rounds, as a step of `simulate`
+        does. Fixed blocks stay. Without overlaps the scene is what it was, to the bit.
+
+        Raises SceneError for blocks that cannot part, such as one jammed between fixed ones, and
+        SimulationError where a body that overlaps another is a surface.
+
+        >>> import drystone as ds
+        >>> scene = ds.Scene(dimension=2)
+        >>> for name, x in (("left", 0), ("right", 0.75)):
+        ...     _ = scene.add_box((x, 0.5), (1, 1), name=name)
+        >>> [round(float(body.center_of_mass[0]), 6) for body in scene.parted().bodies]
+        [-0.125, 0.875]
+        """
+        return Scene._of(self._core.parted())
+
     @classmethod
     def from_compas(cls, assembly: object, **options: object) -> Scene:
         """The scene of a COMPAS assembly, model or mesh: a file, or the object itself.

@@ -15,6 +15,7 @@ mod io;
 mod mass_properties;
 mod methods;
 mod motion;
+mod parted;
 mod planning;
 mod scene;
 mod scenes;

@@ -4,3 +4,4 @@ mod advance;
 mod projection;
 
 pub use advance::integrate;
+pub use projection::project;
