@@ -6,7 +6,7 @@ use super::{
     formulate::{contact_problem::ContactProblem, free_motion::free_velocities},
     integrate::integrate,
     kinematics::Kinematics,
-    motionless::motionless_bodies,
+    motionless::motionless_in_step,
     moving::Moving,
     record::StepRecord,
     settled::Settled,
@@ -112,8 +112,7 @@ impl<S: Moving> World<S> {
         }
         let (problem, motion) = self.solve(&free)?;
         refuse_out_of_bounds(&self.state, &motion.velocities)?;
-        let (dt, unseen) = (self.state.options.dt, motion.unseen);
-        let motionless = motionless_bodies(&self.state.scene, &motion.velocities, dt, unseen);
+        let motionless = motionless_in_step(&self.state, &problem, &motion);
         let projected = integrate(&mut self.state, &mut self.finder, motion.velocities, motionless);
 
         self.previous.impulses = motion.impulses;

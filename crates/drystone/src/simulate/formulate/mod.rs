@@ -2,4 +2,5 @@
 
 pub mod contact_problem;
 pub mod free_motion;
+pub mod islands;
 pub mod restitution;

@@ -60,7 +60,7 @@ pub fn stay_at_rest<S: Kinematics>(
     let mut velocities = contacts.velocities(&free, &state.inverse_mass, |row| p[row]);
     let residual = residual(state, &StepProblem { free: &free, ..*step }, &velocities, &p);
     // Beside large impulses a residual that may stand could still move a small body.
-    let still = motionless_bodies(&state.scene, &velocities, state.options.dt, 0.0);
+    let still = motionless_bodies(state, &velocities, 0.0);
     if residual > Settings::default().residual || still.contains(&false) {
         return None;
     }

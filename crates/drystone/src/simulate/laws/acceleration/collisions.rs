@@ -1,6 +1,5 @@
 //! Impulses, in no time, where bodies close too fast for forces.
 
-use super::islands::Islands;
 use crate::{
     geometry::Polygon,
     simulate::{
@@ -8,6 +7,7 @@ use crate::{
         formulate::{
             contact_problem::{ContactProblem, Velocity, normal_and_tangential},
             free_motion::kinetic_energy_gained,
+            islands::Islands,
             restitution::{Offsets, resting_speed},
         },
         laws::impact::solve_with_rebounds,

@@ -21,7 +21,6 @@
 
 use super::{
     collisions::collide,
-    islands::Islands,
     law_error,
     lemke::{Found, Island, Mode, SLIDES},
 };
@@ -33,6 +32,7 @@ use crate::{
         formulate::{
             contact_problem::{ContactProblem, Velocity, normal_and_tangential},
             free_motion::free_from,
+            islands::Islands,
             restitution::resting_speed,
         },
         laws::law::Law,
@@ -122,11 +122,12 @@ fn solve_others(
 ) -> Result<Motion, StepFailure> {
     let mut island_of: Vec<Option<&Found>> = vec![None; free.len()];
     for island in found {
-        let body = islands.of(&contacts.candidates()[island.members[0]]);
+        let body = islands.of(contacts.candidates()[island.members[0]].id.bodies);
         island_of[body] = Some(island);
     }
     let of_body: Vec<Option<&Found>> = (0..free.len()).map(|body| island_of[islands.of_body(body)]).collect();
-    let of_contact: Vec<bool> = contacts.candidates().iter().map(|a| island_of[islands.of(a)].is_some()).collect();
+    let of_contact: Vec<bool> =
+        contacts.candidates().iter().map(|a| island_of[islands.of(a.id.bodies)].is_some()).collect();
     let others: Vec<Velocity> = free.iter().zip(&of_body).map(|(v, of)| of.map_or(*v, |_| [0.0; 3])).collect();
     let open: Vec<f64> = offsets.iter().zip(&of_contact).map(|(&c, &of)| if of { 0.0 } else { c }).collect();
 

@@ -1,7 +1,6 @@
 //! Forces and accelerations, after impulses where bodies collide: docs/theory/acceleration-level.md.
 
 mod collisions;
-mod islands;
 mod law;
 mod law_error;
 mod lemke;

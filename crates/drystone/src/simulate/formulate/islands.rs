@@ -1,8 +1,8 @@
 //! Islands: bodies that can push one another in a step. Between two of them A has no entry.
 
-use crate::{
-    contact::candidates::CandidateContact,
-    simulate::formulate::contact_problem::{ContactProblem, Velocity},
+use crate::simulate::{
+    formulate::contact_problem::ContactProblem,
+    kinematics::{Kinematics, is_zero},
 };
 
 /// The island of every body. Fixed bodies belong to none: nothing is passed on through them.
@@ -14,8 +14,8 @@ pub struct Islands {
 
 impl Islands {
     /// Joins the bodies of every contact. `inverse_mass` is zero for fixed bodies.
-    pub fn new(contacts: &ContactProblem, inverse_mass: &[Velocity]) -> Self {
-        let movable = inverse_mass.iter().map(|mass| *mass != [0.0; 3]).collect();
+    pub fn new<S: Kinematics>(contacts: &ContactProblem<S>, inverse_mass: &[S::Velocity]) -> Self {
+        let movable = inverse_mass.iter().map(|mass| !is_zero(mass)).collect();
         let mut islands = Self { parent: (0..inverse_mass.len()).collect(), movable };
         for candidate in contacts.candidates() {
             let [a, b] = candidate.id.bodies;
@@ -35,18 +35,17 @@ impl Islands {
         body
     }
 
-    /// The island that a contact belongs to.
-    pub fn of(&self, candidate: &CandidateContact) -> usize {
-        let [a, b] = candidate.id.bodies;
+    /// The island that a contact of two bodies belongs to.
+    pub fn of(&self, [a, b]: [usize; 2]) -> usize {
         self.of_body(if self.movable[a] { a } else { b })
     }
 
     /// The contacts of every island with one that is `chosen`, in order.
-    pub fn with(&self, contacts: &ContactProblem, chosen: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+    pub fn with<S: Kinematics>(&self, contacts: &ContactProblem<S>, chosen: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let mut members = vec![Vec::new(); self.parent.len()];
         let mut wanted = vec![false; self.parent.len()];
         for (k, candidate) in contacts.candidates().iter().enumerate() {
-            let island = self.of(candidate);
+            let island = self.of(candidate.id.bodies);
             members[island].push(k);
             wanted[island] |= chosen(k);
         }
@@ -70,13 +69,14 @@ mod tests {
         }
         let mut finder = CandidateFinder::default();
         finder.find(&scene, &[[0.0; 3]; 6]);
-        let contacts = ContactProblem::new(finder.candidates().copied().collect(), Cones::default(), [0.0, -9.81]);
+        let contacts: ContactProblem =
+            ContactProblem::new(finder.candidates().copied().collect(), Cones::default(), [0.0, -9.81]);
         let mass: Vec<_> = scene.bodies().iter().map(|body| if body.fixed { [0.0; 3] } else { [1.0; 3] }).collect();
         let islands = Islands::new(&contacts, &mass);
         let sizes: Vec<usize> = islands.with(&contacts, |_| true).iter().map(Vec::len).collect();
         assert_eq!(sizes, [4, 6]);
         let second = islands.with(&contacts, |k| contacts.candidates()[k].id.bodies.contains(&5));
         assert_eq!(second.len(), 1);
-        assert!(second[0].iter().all(|&k| islands.of(&contacts.candidates()[k]) == 3));
+        assert!(second[0].iter().all(|&k| islands.of(contacts.candidates()[k].id.bodies) == 3));
     }
 }
