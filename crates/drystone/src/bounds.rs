@@ -58,6 +58,14 @@ pub const TOLERANCE: Bounds = Bounds { least: 1e-18, most: 1e12, unit: " m", adv
 /// Angles, radians. At 1e12 neighbouring floats are 1e-4 rad apart.
 pub const ANGLE: Bounds = Bounds { least: -1e12, most: 1e12, unit: " rad", advice: "take off whole turns" };
 
+/// Turns of a settlement, radians, either way. A displacement is small while the sine of its turn is the turn: at .1 within 0.2 %.
+pub const SMALL_TURN: Bounds = Bounds {
+    least: -0.1,
+    most: 0.1,
+    unit: " rad",
+    advice: "a settlement is a small displacement, its turn in radians",
+};
+
 /// Edges of a friction cone in space. With 1000 the pyramid leaves out 5e-6 of the coefficient; contacts cost edges times edges.
 pub const MOST_FACETS: usize = 1000;
 

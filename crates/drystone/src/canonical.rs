@@ -20,13 +20,13 @@ mod section;
 use crate::{
     check::Verdict,
     contact::Contact,
-    formulate::{Assembly, BlockSet, Components, ContactForce, FrictionCone},
+    formulate::{Assembly, BlockSet, BodySpace, Components, ContactForce, FrictionCone},
     geometry::length,
     proof::{accelerations_under, moving},
 };
 use corners::{Allowed, Rows, least_squares};
 use drystone_lcp::interior::{Cone, Layers};
-use face::{Face, faces};
+pub(crate) use face::{Face, faces};
 
 /// Forces below this share of the largest are rounding: none.
 const NONE: f64 = 1e-12;
@@ -103,6 +103,11 @@ fn least_norm(
     if let Some(wrenches) = balanced {
         space.balance(wrenches);
     }
+    least_norm_of(assembly, space)
+}
+
+/// The forces of least norm at every point of a problem.
+pub(crate) fn least_norm_of(assembly: &Assembly, space: BodySpace<'_>) -> Vec<ContactForce> {
     let contacts: Vec<&Contact> = space.contacts().collect();
     let faces = faces(assembly, &contacts);
     let (mut of, mut rows) = (vec![0; contacts.len()], vec![[[0.0; 6]; 3]; contacts.len()]);
@@ -120,6 +125,10 @@ fn least_norm(
     let shared = Shared { in_plane: assembly.in_plane(), rows: &layers.jacobian, found: &found, none: NONE * largest };
     for face in &faces {
         let first = face.points[0];
+        if face.points.iter().any(|&point| space.slides(point)) {
+            face.points.iter().for_each(|&point| forces[point] = found[point]);
+            continue;
+        }
         shared.among_corners(face, space.cone(first), contacts[first].friction, &mut forces);
     }
     forces.into_iter().enumerate().map(|(point, force)| space.force(point, force)).collect()

@@ -162,6 +162,12 @@ pub enum SceneError {
         /// The body.
         name: String,
     },
+    /// The settlement of a body that is no support.
+    #[error("\"{name}\" is not fixed: only supports settle; give it fixed=True, or push it (add_load)")]
+    NotSupport {
+        /// The body.
+        name: String,
+    },
     /// Two loads with the same name.
     #[error("there is a load named \"{name}\" already: names of loads must differ")]
     DuplicateLoad {

@@ -37,7 +37,10 @@ mod proof;
 pub mod scene;
 mod scene_in_space;
 mod scene_loads;
+mod scene_settlements;
 pub mod scenes;
+pub mod settle;
+mod settlement;
 pub mod simulate;
 pub mod strong;
 pub mod structure;
@@ -55,6 +58,7 @@ pub use load::{Load, LoadOptions};
 pub use mass_properties::MassProperties;
 pub use scene::{Body, BodyOptions, Scene, SceneOf};
 pub use scene_in_space::SceneInSpace;
+pub use settlement::Settlement;
 pub use structure::Structure;
 
 /// The first page of this crate; its example is run with the others.

@@ -35,20 +35,35 @@ pub(crate) fn accelerations_under(
     blocks.iter().map(acceleration).collect()
 }
 
+/// The largest force on each block, N.
+fn largest_on_blocks(assembly: &Assembly, forces: &[ContactForce]) -> Vec<f64> {
+    let mut largest = vec![0.0_f64; assembly.blocks()];
+    for force in forces {
+        for block in assembly.contacts()[force.contact].bodies.into_iter().filter_map(|body| assembly.block_of(body)) {
+            largest[block] = largest[block].max(length(force.force));
+        }
+    }
+    largest
+}
+
+/// The largest imbalance that forces leave of a block, as a share of its own load or of the largest force on it.
+pub(crate) fn imbalance(assembly: &Assembly, blocks: &BlockSet, forces: &[ContactForce]) -> f64 {
+    let largest = largest_on_blocks(assembly, forces);
+    let share = |(block, acceleration): &(usize, Components)| {
+        let own = assembly.unit_of_acceleration(*block);
+        let in_loads = (largest[*block] * assembly.inverse_mass(*block)[0] / own).max(1.0);
+        severity(assembly, *block, acceleration) / in_loads
+    };
+    accelerations_under(assembly, blocks, forces).iter().map(share).fold(0.0, f64::max)
+}
+
 /// The blocks that are not at rest with these accelerations, where these forces act.
 pub(crate) fn moving(
     assembly: &Assembly,
     accelerations: &[(usize, Components)],
     forces: &[ContactForce],
 ) -> Vec<(usize, Components)> {
-    let mut largest = vec![0.0_f64; assembly.blocks()];
-    for force in forces {
-        for body in assembly.contacts()[force.contact].bodies {
-            if let Some(block) = assembly.block_of(body) {
-                largest[block] = largest[block].max(length(force.force));
-            }
-        }
-    }
+    let largest = largest_on_blocks(assembly, forces);
     let moves = |&&(block, ref acceleration): &&(usize, Components)| {
         !at_rest_under(assembly, block, severity(assembly, block, acceleration), largest[block])
     };
@@ -75,7 +90,7 @@ pub(crate) fn power_of_fall(
     }
     for force in forces {
         let contact = &assembly.contacts()[force.contact];
-        let (relative, size) = relative_motion(assembly, contact, &of);
+        let (relative, size) = relative_motion(assembly, contact, of_blocks(assembly, &of));
         let closing = -opening(assembly, contact, relative, cone);
         if closing > CLOSING * fastest {
             return 0.0;
@@ -131,7 +146,7 @@ pub(crate) fn closing(
     motion.iter().for_each(|(block, velocity)| of[*block] = Some(velocity));
     let closes = |force: &ContactForce| {
         let contact = &assembly.contacts()[force.contact];
-        -opening(assembly, contact, relative_motion(assembly, contact, &of).0, cone)
+        -opening(assembly, contact, relative_motion(assembly, contact, of_blocks(assembly, &of)).0, cone)
     };
     let most = forces.iter().map(closes).fold(0.0, f64::max);
     if most > 0.0 { most / assembly.fastest(motion) } else { 0.0 }
@@ -158,7 +173,7 @@ pub(crate) fn law_error(assembly: &Assembly, motion: &[(usize, Components)], for
     motion.iter().for_each(|(block, a)| of[*block] = Some(a));
     let error = |force: &ContactForce| {
         let contact = &assembly.contacts()[force.contact];
-        let (relative, _) = relative_motion(assembly, contact, &of);
+        let (relative, _) = relative_motion(assembly, contact, of_blocks(assembly, &of));
         let (mu, inverse) = (contact.friction, inverse_mass_at(assembly, contact));
         let [forced, moved] = [force.force.map(|f| inverse * f), relative];
         let across = |v: [f64; 3]| minus(v, contact.normal.map(|n| n * dot(v, contact.normal)));
@@ -194,13 +209,21 @@ fn inverse_mass_at(assembly: &Assembly, contact: &Contact) -> f64 {
     sum / axes as f64
 }
 
-/// Motion of the second body of a contact relative to the first, at the point, and the sum of the sizes of its parts.
-fn relative_motion(assembly: &Assembly, contact: &Contact, of: &[Option<&Components>]) -> ([f64; 3], f64) {
+/// The motions of bodies where only blocks move.
+fn of_blocks<'a>(assembly: &Assembly, of: &[Option<&'a Components>]) -> impl Fn(usize) -> Option<&'a Components> {
+    |body| assembly.block_of(body).and_then(|block| of[block])
+}
+
+/// Motion of the second body of a contact relative to the first, at the point, and the sum of the sizes of its parts; `of` is that of
+/// a body.
+pub(crate) fn relative_motion<'a>(
+    assembly: &Assembly,
+    contact: &Contact,
+    of: impl Fn(usize) -> Option<&'a Components>,
+) -> ([f64; 3], f64) {
     let (mut relative, mut size) = ([0.0; 3], 0.0);
     for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-        let Some(velocity) = assembly.block_of(contact.bodies[side]).and_then(|block| of[block]) else {
-            continue;
-        };
+        let Some(velocity) = of(contact.bodies[side]) else { continue };
         let body = &assembly.bodies()[contact.bodies[side]];
         let [x, y, z, turning @ ..] = *velocity;
         let turned = cross(body.in_world(turning), minus(contact.point, body.center));
@@ -211,7 +234,7 @@ fn relative_motion(assembly: &Assembly, contact: &Contact, of: &[Option<&Compone
 }
 
 /// The least rate of a unit force within a contact's cone in a relative motion: negative where they sink into each other.
-fn opening(assembly: &Assembly, contact: &Contact, relative: [f64; 3], cone: FrictionCone) -> f64 {
+pub(crate) fn opening(assembly: &Assembly, contact: &Contact, relative: [f64; 3], cone: FrictionCone) -> f64 {
     if !assembly.is_round(cone) {
         return assembly.directions(contact).into_iter().map(|d| dot(d, relative)).fold(f64::INFINITY, f64::min);
     }

@@ -7,6 +7,7 @@ use crate::geometry::{Polygon, Pose, Shape, Vector3};
 use crate::interrupt::poll;
 use crate::load::{Load, check_gravity};
 use crate::mass_properties::{MassProperties, Weighed};
+use crate::settlement::Settlement;
 use crate::suggest::nearest;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
@@ -61,6 +62,7 @@ pub struct Body<S: Shape = Polygon> {
     pub(crate) own: MassProperties,
     weighed: Weighed,
     loads: Vec<Load<S::Vector>>,
+    settlements: Vec<Settlement<S::Vector>>,
 }
 
 impl<S: Shape> Body<S> {
@@ -77,6 +79,11 @@ impl<S: Shape> Body<S> {
     /// Permanent loads beside the weight.
     pub fn loads(&self) -> &[Load<S::Vector>] {
         &self.loads
+    }
+
+    /// Prescribed displacements of a fixed block, which add up.
+    pub fn settlements(&self) -> &[Settlement<S::Vector>] {
+        &self.settlements
     }
 
     /// Unit vectors of the principal axes in the body's frame, in the order of the moments; in the plane those of the frame.
@@ -164,6 +171,11 @@ impl<S: Shape> SceneOf<S> {
         &mut self.bodies[index].loads
     }
 
+    /// The settlements of a block, to change them.
+    pub(crate) fn settlements_mut(&mut self, index: usize) -> &mut Vec<Settlement<S::Vector>> {
+        &mut self.bodies[index].settlements
+    }
+
     /// Takes a block out; those after it move up by one.
     pub(crate) fn remove(&mut self, index: usize) {
         self.bodies.remove(index);
@@ -191,7 +203,8 @@ impl<S: Shape> SceneOf<S> {
         let weighed = own.weigh(&name, &shape, density)?;
         let density = own.mass.map_or(density, |mass| mass / shape.measure());
         let own = MassProperties { center_of_mass: own.center_of_mass.map(|_| [0.0; 3]), ..own };
-        let body = Body { name, shape, box_size, pose, density, friction, fixed, own, weighed, loads: Vec::new() };
+        let (loads, settlements) = (Vec::new(), Vec::new());
+        let body = Body { name, shape, box_size, pose, density, friction, fixed, own, weighed, loads, settlements };
         body.check_size()?;
         body.check_mass()?;
         let index = self.bodies.len();

@@ -18,7 +18,7 @@ const SAME_PLANE: f64 = 1e-6;
 
 /// A face and its layer.
 #[derive(Debug, Clone)]
-pub(super) struct Face {
+pub(crate) struct Face {
     /// Its contacts, by their place among those asked about.
     pub points: Vec<usize>,
     /// Those of them that are corners of its outline.
@@ -83,7 +83,7 @@ fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
 }
 
 /// The faces of some contacts, ordered by pair of bodies and then by their first point.
-pub(super) fn faces(assembly: &Assembly, contacts: &[&Contact]) -> Vec<Face> {
+pub(crate) fn faces(assembly: &Assembly, contacts: &[&Contact]) -> Vec<Face> {
     let mut order: Vec<usize> = (0..contacts.len()).collect();
     order.sort_by_key(|&point| contacts[point].bodies);
     let pairs = order.chunk_by(|&a, &b| contacts[a].bodies == contacts[b].bodies);

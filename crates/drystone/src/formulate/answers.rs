@@ -16,7 +16,7 @@ pub struct ContactForce {
 }
 
 /// Takes a force at a contact apart along its normal and across.
-pub(super) fn force_at(contact: usize, normal: [f64; 3], in_plane: bool, force: [f64; 3]) -> ContactForce {
+pub(crate) fn force_at(contact: usize, normal: [f64; 3], in_plane: bool, force: [f64; 3]) -> ContactForce {
     let along = dot(force, normal);
     let tangential = if in_plane {
         force[1] * normal[0] - force[0] * normal[1]

@@ -10,7 +10,7 @@ use drystone_lcp::interior::{Cone, Found, Gauss, Layers, Point};
 use std::ops::Range;
 
 /// A sub-assembly as [`Gauss`] takes it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct BodySpace<'a> {
     assembly: &'a Assembly,
     blocks: Vec<usize>,
@@ -19,7 +19,7 @@ pub(crate) struct BodySpace<'a> {
 }
 
 /// A point of the problem.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Touched {
     contact: usize,
     /// The directions of its rows.
@@ -28,6 +28,8 @@ struct Touched {
     generators: Range<usize>,
     /// The column of [`Assembly::equilibrium`] of its axis, if that is one of its edges here.
     axis: Option<usize>,
+    /// Whether only forces against a way in which it slides are left of its cone.
+    slides: bool,
 }
 
 /// What the method found, in the terms of an assembly.
@@ -105,7 +107,7 @@ impl Assembly {
                 })
             });
             problem.points.push(Point { bodies: there.map(Option::flatten), jacobian, cone });
-            points.push(Touched { contact: index, frame, generators: own, axis });
+            points.push(Touched { contact: index, frame, generators: own, axis, slides: false });
         }
         BodySpace { assembly: self, blocks: present, points, problem }
     }
@@ -140,6 +142,76 @@ impl<'a> BodySpace<'a> {
     pub fn under(mut self, push: &Push) -> Self {
         self.problem.push = self.load(push);
         self
+    }
+
+    /// The same where the supports have settled by a multiple of what is prescribed for them: an offset of the contacts.
+    pub fn settled(mut self, factor: f64) -> Self {
+        let bodies = self.assembly.bodies();
+        for (touched, point) in self.points.iter().zip(&self.problem.points) {
+            let contact = &self.assembly.contacts()[touched.contact];
+            let mut relative = [0.0; 3];
+            for (side, _) in point.bodies.iter().enumerate().filter(|(_, body)| body.is_none()) {
+                let settlement = &bodies[contact.bodies[side]].settlement;
+                for (relative, row) in relative.iter_mut().zip(&point.jacobian[side]) {
+                    let along = self.assembly.components().iter().zip(row);
+                    *relative += along.map(|(&k, row)| factor * settlement[k] * row).sum::<f64>();
+                }
+            }
+            match &point.cone {
+                Cone::Round { .. } => self.problem.offset.extend(relative),
+                Cone::Edges(edges) => self.problem.offset.extend(edges.iter().map(|&edge| dot(edge, relative))),
+            }
+        }
+        self
+    }
+
+    /// Pulls the blocks towards a motion, one unknown after another: with `M motion` added to the load (1) has its least where a is
+    /// near that motion, but for the loads.
+    pub fn pulled_towards(&self, motion: &[f64]) -> Self {
+        let mut pulled = self.clone();
+        let pull = motion.iter().zip(&self.problem.inverse_mass).map(|(a, inverse)| a / inverse);
+        pulled.problem.load.iter_mut().zip(pull).for_each(|(load, pull)| *load += pull);
+        pulled
+    }
+
+    /// The same with the forces that are left after a displacement of the second bodies relative to the first, one for each point: none
+    /// where a point opens by more than `resolution`, metres; where it slides those against the way. Which way that is on a round cone
+    /// forces tell better, which bear there, world axes: they balance.
+    pub fn bearing_after(mut self, relative: &[[f64; 3]], resolution: f64, bearing: &[[f64; 3]]) -> Self {
+        let mut kept = Vec::with_capacity(self.points.len());
+        let points = self.points.iter_mut().zip(&mut self.problem.points);
+        for (((touched, point), relative), bearing) in points.zip(relative).zip(bearing) {
+            let moved = touched.frame.map(|axis| dot(axis, *relative));
+            let [_, first, second] = moved;
+            let across = first.hypot(second);
+            let left = match &point.cone {
+                Cone::Round { friction } if moved[0] - friction * across > resolution => Some(Vec::new()),
+                Cone::Round { .. } if across > resolution => {
+                    let force = touched.frame.map(|axis| dot(axis, *bearing));
+                    Some(if force[0] > 0.0 { vec![force.map(|f| f / force[0])] } else { Vec::new() })
+                }
+                Cone::Round { .. } => None,
+                Cone::Edges(edges) => {
+                    let closed = |edge: &&[f64; 3]| dot(**edge, moved) <= resolution;
+                    let closed: Vec<[f64; 3]> = edges.iter().filter(closed).copied().collect();
+                    (closed.len() < edges.len()).then_some(closed)
+                }
+            };
+            kept.push(left.as_ref().is_none_or(|edges| !edges.is_empty()));
+            if let Some(edges) = left {
+                (touched.slides, point.cone) = (true, Cone::Edges(edges));
+            }
+        }
+        let mut bears = kept.iter();
+        self.points.retain(|_| *bears.next().unwrap_or(&false));
+        let mut bears = kept.iter();
+        self.problem.points.retain(|_| *bears.next().unwrap_or(&false));
+        self
+    }
+
+    /// Whether only forces against a way in which it slides are left at a point.
+    pub fn slides(&self, point: usize) -> bool {
+        self.points[point].slides
     }
 
     /// A push as a load of the problem, body after body.
@@ -189,7 +261,7 @@ impl<'a> BodySpace<'a> {
     }
 
     /// What the method has found in the terms of the assembly.
-    fn constrained(&self, found: Found) -> Constrained {
+    pub fn constrained(&self, found: Found) -> Constrained {
         Constrained { motion: self.motion(&found.accelerations), forces: self.forces(&found.forces), found }
     }
 

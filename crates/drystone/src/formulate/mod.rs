@@ -22,7 +22,9 @@ mod loads;
 mod motion;
 mod part;
 mod push;
+mod self_stress;
 
+pub(crate) use answers::force_at;
 pub use answers::{Acceleration, ContactForce};
 pub use assembly::Assembly;
 pub use block_rows::BlockRows;

@@ -30,6 +30,8 @@ pub struct Part {
     pub radius: f64,
     /// Wrench of the permanent loads about the centre of mass, N and N m; the weight is not in it.
     pub load: Components,
+    /// Small displacement of a support: that of the centre of mass, metres, and the turn about the principal axes, radians.
+    pub settlement: Components,
 }
 
 /// Shapes of which assemblies are made.
@@ -46,13 +48,21 @@ pub trait Assemble: Shape {
     /// A body's mass and place, without loads.
     fn unloaded(body: &Body<Self>) -> Part;
 
-    /// A body's mass, place and loads.
+    /// A body's mass, place, loads and settlement.
     fn part(body: &Body<Self>) -> Part {
         let mut part = Self::unloaded(body);
         for load in body.loads() {
             let arm = Self::in_space(Self::turned(&body.pose, load.at));
             let more = part.wrench_and_moment(Self::in_space(load.force), arm, load.moment);
             part.load.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
+        }
+        for settlement in body.settlements() {
+            let arm = Self::in_space(Self::turned(&body.pose, settlement.at));
+            let (moved, turned) = (Self::in_space(settlement.displacement), settlement.rotation);
+            let center = minus(moved, cross(turned, arm));
+            let turned = part.along_axes(turned);
+            (0..3).for_each(|k| part.settlement[k] += center[k]);
+            (0..3).for_each(|k| part.settlement[3 + k] += turned[k]);
         }
         part
     }
@@ -91,6 +101,7 @@ impl Assemble for Polygon {
             center: Self::in_space(body.pose.position),
             radius: body.shape.radius(),
             load: [0.0; 6],
+            settlement: [0.0; 6],
         }
     }
 
@@ -121,6 +132,7 @@ impl Assemble for Solid {
             center: body.pose.position,
             radius: body.shape.radius(),
             load: [0.0; 6],
+            settlement: [0.0; 6],
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::fields::{Fields, wrong_type};
 use super::shapes::Stored;
+use super::turning::{Turning, turning};
 use crate::error::{FileError, SceneError};
 use crate::geometry::{Numbers, minus_of};
 use crate::load::Load;
@@ -16,23 +17,12 @@ pub(super) struct LoadRecord<'a> {
     force: &'a [f64],
     at: &'a [f64],
     #[serde(skip_serializing_if = "Option::is_none")]
-    moment: Option<MomentRecord>,
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum MomentRecord {
-    Plane(f64),
-    Space([f64; 3]),
+    moment: Option<Turning>,
 }
 
 /// What is written of a load.
 pub(super) fn record<V: Numbers>(load: &Load<V>) -> LoadRecord<'_> {
-    let moment = match load.force.as_ref().len() {
-        _ if load.moment == [0.0; 3] => None,
-        2 => Some(MomentRecord::Plane(load.moment[2])),
-        _ => Some(MomentRecord::Space(load.moment)),
-    };
+    let moment = Turning::of(load.moment, load.force.as_ref().len());
     LoadRecord { name: &load.name, force: load.force.as_ref(), at: load.at.as_ref(), moment }
 }
 
@@ -71,10 +61,7 @@ pub(super) fn add_loads<S: Stored>(
             Some(at) => minus_of(at, &origin),
             None => scene.bodies()[index].shape.centroid(),
         };
-        let moment = match S::DIMENSION {
-            2 => [0.0, 0.0, load.number("moment")?.unwrap_or_default()],
-            _ => load.numbers("moment")?.unwrap_or_default(),
-        };
+        let moment = turning::<S>(&load, "moment")?;
         let added = scene.push_load(index, load.string("name")?, force, at, moment);
         added.map_err(|error| load.invalid(error))?;
     }

@@ -24,13 +24,18 @@
 //! From version 2 on a body may have "loads" (`{"name", "force" (N, world axes), "at" (m, in the frame of the shape), "moment"
 //! (N m)}`), and the scene a "pair_friction" (`{"bodies": ["a", "b"], "friction"}`) that goes before the friction of bodies.
 //!
+//! From version 3 on a fixed body may have "settlements" (`{"displacement" (m, world axes), "rotation" (rad; in space three), "at" (m,
+//! in the frame of the shape)}`).
+//!
 //! Numbers are written with as many digits as they need to come back bit for bit.
 
 mod fields;
 mod file;
 mod loads;
 mod read;
+mod settlements;
 mod shapes;
+mod turning;
 mod unique;
 mod weight;
 mod write;
@@ -42,5 +47,6 @@ pub(crate) use write::to_json;
 /// What a scene file's "format" says.
 pub const FORMAT: &str = "drystone-scene";
 
-/// The newest version: 1 had no loads and no friction of pairs, and is what is written of a scene without them.
-pub const VERSION: u64 = 2;
+/// The newest version: 2 had no settlements, 1 no loads and no friction of pairs either. What is written of a scene is the oldest
+/// that holds it.
+pub const VERSION: u64 = 3;

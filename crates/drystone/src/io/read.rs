@@ -3,7 +3,7 @@
 use super::fields::{Fields, brief, wrong_type};
 use super::shapes::Stored;
 use super::unique::Unique;
-use super::{FORMAT, VERSION, loads, weight};
+use super::{FORMAT, VERSION, loads, settlements, weight};
 use crate::any_scene::AnyScene;
 use crate::error::{FileError, SceneError};
 use crate::geometry::{Polygon, Solid};
@@ -15,7 +15,7 @@ const SCENE_FIELDS: [&str; 8] =
     ["format", "version", "dimension", "gravity", "friction", "contact_tolerance", "bodies", "pair_friction"];
 
 /// Fields of a body besides its shape, its place and its weight.
-const BODY_FIELDS: [&str; 4] = ["name", "friction", "fixed", "loads"];
+const BODY_FIELDS: [&str; 5] = ["name", "friction", "fixed", "loads", "settlements"];
 
 /// Operations to parse a byte, about.
 const PARSING: usize = 32;
@@ -90,7 +90,8 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
     let shape = S::shape(&body)?;
     let pose = S::pose(&body)?;
     let index = S::add(scene, shape, pose, options).map_err(|error| body.invalid(error))?;
-    loads::add_loads(scene, &body, index, pose)
+    loads::add_loads(scene, &body, index, pose)?;
+    settlements::add_settlements(scene, &body, index, pose)
 }
 
 fn syntax(file: &str, text: &str, error: &serde_json::Error) -> FileError {

@@ -5,6 +5,7 @@ use super::weight::{self, WeightRecord};
 use super::{
     FORMAT, VERSION,
     loads::{self, LoadRecord},
+    settlements::{self, SettlementRecord},
 };
 use crate::interrupt::poll;
 use crate::scene::{Body, SceneOf};
@@ -25,6 +26,8 @@ struct BodyRecord<'a> {
     fixed: bool,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     loads: Vec<LoadRecord<'a>>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    settlements: Vec<SettlementRecord<'a>>,
 }
 
 /// The scene as JSON, one body a line so that two versions compare well.
@@ -41,7 +44,11 @@ pub(crate) fn to_json<S: Stored>(scene: &SceneOf<S>) -> String {
     let gravity: Vec<String> = scene.gravity().as_ref().iter().copied().map(number).collect();
     let loaded = scene.bodies().iter().any(|body| !body.loads().is_empty());
     let pairs: Vec<String> = loads::pairs(scene).iter().map(line).collect();
-    let version = if loaded || !pairs.is_empty() { VERSION } else { 1 };
+    let version = match scene.settling() {
+        Some(_) => VERSION,
+        None if loaded || !pairs.is_empty() => 2,
+        None => 1,
+    };
     let pairs = match pairs.is_empty() {
         true => String::new(),
         false => format!(",\n  \"pair_friction\": [\n{}\n  ]", pairs.join(",\n")),
@@ -63,7 +70,8 @@ fn body_line<S: Stored>(body: &Body<S>) -> String {
     let (shape, pose) = S::record(body);
     let weight = weight::record(body);
     let (friction, fixed, loads) = (body.friction, body.fixed, body.loads().iter().map(loads::record).collect());
-    let record = BodyRecord { name: &body.name, shape, pose, weight, friction, fixed, loads };
+    let settlements = body.settlements().iter().map(settlements::record).collect();
+    let record = BodyRecord { name: &body.name, shape, pose, weight, friction, fixed, loads, settlements };
     line(&record)
 }
 

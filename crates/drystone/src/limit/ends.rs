@@ -3,8 +3,7 @@
 use crate::{
     contact::Contact,
     formulate::{Acceleration, Assembly, BlockSet, Components, ContactForce, FrictionCone, Push},
-    judgement::severity,
-    proof::{accelerations_under, closing},
+    proof::{closing, imbalance},
 };
 use drystone_lcp::{Counts, Status};
 
@@ -67,21 +66,7 @@ impl End {
         forces: Vec<ContactForce>,
     ) -> Self {
         let pushed = assembly.pushed(push, factor);
-        let left = accelerations_under(&pushed, blocks, &forces);
-        let mut largest = vec![0.0_f64; assembly.blocks()];
-        for force in &forces {
-            for block in
-                assembly.contacts()[force.contact].bodies.into_iter().filter_map(|body| assembly.block_of(body))
-            {
-                largest[block] = largest[block].max(crate::geometry::length(force.force));
-            }
-        }
-        let share = |(block, acceleration): &(usize, Components)| {
-            let own = pushed.unit_of_acceleration(*block);
-            let in_loads = (largest[*block] * pushed.inverse_mass(*block)[0] / own).max(1.0);
-            severity(&pushed, *block, acceleration) / in_loads
-        };
-        let imbalance = left.iter().map(share).fold(0.0, f64::max);
+        let imbalance = imbalance(&pushed, blocks, &forces);
         let closing = closing(assembly, &motion, &forces, cone);
         let power = |of: &dyn Fn(usize) -> Vec<f64>| -> f64 {
             let each = motion.iter().map(|(block, velocity)| {

@@ -7,6 +7,7 @@ use crate::geometry::{PoseInSpace, Shape};
 use crate::mass_properties::MassProperties;
 use crate::scene::{Body, BodyOptions, Scene};
 use crate::scene_in_space::SceneInSpace;
+use crate::settlement::Settlement;
 
 /// Gravity of the built-in scenes in space, m/s^2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -101,6 +102,13 @@ pub fn extruded(scene: &Scene, depth: f64) -> Result<SceneInSpace, SceneError> {
             // The frames' axes: (x, y) of the plane are x and z.
             let ([x, y], [a, b], [_, _, m]) = (load.force, load.at, load.moment);
             solid.push_load(index, Some(load.name.clone()), [x, 0.0, y], [a, 0.0, b], [0.0, -m, 0.0])?;
+        }
+    }
+    for (index, body) in scene.bodies().iter().enumerate() {
+        for settlement in body.settlements() {
+            let ([x, y], [a, b], [_, _, turn]) = (settlement.displacement, settlement.at, settlement.rotation);
+            let (displacement, rotation, at) = ([x, 0.0, y], [0.0, -turn, 0.0], [a, 0.0, b]);
+            solid.push_settlement(index, Settlement { displacement, rotation, at })?;
         }
     }
     let name = |i: usize| scene.bodies()[i].name.as_str();

@@ -76,6 +76,15 @@ pub enum SimulationError {
         /// The block.
         body: String,
     },
+    /// A support that is to settle.
+    #[error(
+        "support \"{body}\" has a settlement, which check answers for a structure at rest: simulate \
+         without_settlements(), or put the support where it has gone to"
+    )]
+    Settlement {
+        /// The support.
+        body: String,
+    },
     /// Bytes that are no snapshot of a world, or a damaged one.
     #[error("this is no snapshot of a world: {reason}")]
     Snapshot {

@@ -80,7 +80,7 @@ impl<S: Moving> World<S> {
     ///
     /// # Errors
     /// [`SimulationError::TimeStep`], [`SimulationError::Restitution`], [`SimulationError::CoulombTolerance`],
-    /// [`SimulationError::NoSuchLaw`];
+    /// [`SimulationError::NoSuchLaw`], [`SimulationError::Settlement`];
     /// [`SceneError::Overlap`] if blocks overlap, [`SceneError::BadFacets`].
     pub fn new(scene: SceneOf<S>, options: Options) -> Result<Self, SimulationError> {
         let origin = origin_of(&scene);
@@ -106,6 +106,7 @@ impl<S: Moving> World<S> {
         if let Some(body) = S::immovable(&scene) {
             return Err(SimulationError::Surface { body });
         }
+        refuse_settlements(&scene)?;
         Ok(Self {
             law: S::law(formulation).ok_or(SimulationError::NoSuchLaw { formulation: formulation.name() })?,
             state: State::at_rest(scene, options),
@@ -196,6 +197,7 @@ impl<S: Moving> World<S> {
         if scene.bodies().get(..known) != Some(self.scene().bodies()) {
             return Err(SimulationError::OtherBodies);
         }
+        refuse_settlements(&scene)?;
         let mut scene = moved(scene, -1.0, &self.origin);
         // What the world has of its bodies' places is finer than what it says.
         self.state.scene.bodies().iter().enumerate().for_each(|(i, body)| scene.set_pose(i, body.pose));
@@ -236,4 +238,10 @@ impl<S: Moving> World<S> {
         self.finder.clear();
         self.settled = None;
     }
+}
+
+/// A world has no place for displacements that are prescribed but take no time.
+fn refuse_settlements<S: Moving>(scene: &SceneOf<S>) -> Result<(), SimulationError> {
+    let refused = |body: &str| Err(SimulationError::Settlement { body: body.to_owned() });
+    scene.settling().map_or(Ok(()), refused)
 }

@@ -185,7 +185,7 @@ fn missing_and_mistaken_values_are_named() {
 fn another_format_version_or_dimension_is_refused_first() {
     let good = with_bodies("");
     let newer = good.replace("\"version\": 1", "\"version\": 99").replace("\"friction\"", "\"mu\"");
-    assert!(matches!(error_of(&newer), FileError::UnsupportedVersion { supported: 2, .. }));
+    assert!(matches!(error_of(&newer), FileError::UnsupportedVersion { supported: 3, .. }));
     let hyperspace = good.replace("\"dimension\": 2", "\"dimension\": 4");
     assert!(matches!(error_of(&hyperspace), FileError::UnsupportedDimension { .. }));
     let mixed = good.replace("\"dimension\": 2", "\"dimension\": 3");

@@ -20,6 +20,7 @@ mod planning;
 mod scene;
 mod scenes;
 mod seams;
+mod settlement;
 mod simulation;
 mod simulation_acceleration;
 mod simulation_in_space;

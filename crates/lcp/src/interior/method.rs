@@ -89,6 +89,8 @@ pub(super) struct Interior<const B: usize, const D: usize, const N: usize> {
     cost: Vec<f64>,
     /// Factor of the push, in its own unit.
     t: f64,
+    /// Whether forces that hold the bodies are the answer whatever the gap: so without an offset.
+    rests: bool,
     /// Power of the push in the motion: one where the factor is to be greatest, else none.
     rate: f64,
 }
@@ -137,7 +139,8 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
             cones -= 2;
         }
         let a = vec![[0.0; B]; problem.load.len()];
-        Self { a, s: f.clone(), f, cones, massless: 0, cost: problem.offset(), t: 0.0, rate: 0.0, problem }
+        let (cost, rests) = (problem.offset(), problem.has_no_offset());
+        Self { a, s: f.clone(), f, cones, massless: 0, cost, rests, t: 0.0, rate: 0.0, problem }
     }
 
     /// The forces of least cost that hold the bodies, from some that do: (2) with `s = J a + cost` and no masses. Where
@@ -168,6 +171,14 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         made
     }
 
+    /// Forces that hold the bodies and the motion in which the loads do most work: (2) with `s = J a + offset` and no masses.
+    pub fn of_least_energy(problem: Scaled<B, D, N>) -> Self {
+        let massless = problem.load.len();
+        let mut made = Self { massless, ..Self::new(problem) };
+        made.f.iter_mut().chain(&mut made.s).for_each(|start| *start *= START);
+        made
+    }
+
     /// None if stopped.
     pub fn solve(mut self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         let Some(mut matrix) = BodyMatrix::new(&self.problem) else {
@@ -181,7 +192,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         let (mut best, mut since, mut residuals) = ([f64::INFINITY; 2], 0, self.residuals());
         for iteration in 0..MOST {
             let merit = residuals.merit();
-            if self.massless == 0 && iteration > 0 && self.at_rest(&residuals) {
+            if self.rests && self.massless == 0 && iteration > 0 && self.at_rest(&residuals) {
                 return Some(self.found(End::AtRest, iteration, residuals.gap));
             }
             if merit <= 1.0 || self.rate > 0.0 && residuals.gap <= GAP_OF_PUSH && residuals.worst <= RESIDUAL_OF_PUSH {

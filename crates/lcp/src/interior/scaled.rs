@@ -129,6 +129,11 @@ impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
         self.edges.len()
     }
 
+    /// Whether nothing is added to `J a`.
+    pub fn has_no_offset(&self) -> bool {
+        self.offset.iter().all(|offset| *offset == 0.0)
+    }
+
     /// What is added to `J a`.
     pub fn offset(&self) -> Vec<f64> {
         if self.offset.is_empty() { vec![0.0; self.forces()] } else { self.offset.clone() }

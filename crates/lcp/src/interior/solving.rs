@@ -14,6 +14,7 @@ enum Question<'a> {
     /// Forces of these costs, from some that hold the bodies.
     LeastCost(&'a [f64], Vec<f64>),
     GreatestPush,
+    LeastEnergy,
 }
 
 impl Gauss {
@@ -40,6 +41,15 @@ impl Gauss {
     /// If bodies have neither 3 nor 6 unknowns.
     pub fn greatest_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         self.by_size(Question::GreatestPush, go_on)
+    }
+
+    /// The displacement in which the loads do most work, with the offset that is given, and the forces after it; in place of
+    /// accelerations. None if stopped.
+    ///
+    /// # Panics
+    /// If bodies have neither 3 nor 6 unknowns.
+    pub fn least_energy_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
+        self.by_size(Question::LeastEnergy, go_on)
     }
 
     /// A basis of the forces that hold the bodies, from such forces, all of them positive: those that are positive where a
@@ -96,6 +106,7 @@ impl Gauss {
             Question::Motion => Interior::new(scaled),
             Question::LeastCost(forces, cost) => Interior::of_least_cost(scaled, forces, cost),
             Question::GreatestPush => Interior::of_greatest_push(scaled),
+            Question::LeastEnergy => Interior::of_least_energy(scaled),
         }
         .solve(go_on)
     }
