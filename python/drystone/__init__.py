@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from drystone.equilibrium.limits import Limit, LimitEnd, limit
     from drystone.equilibrium.load_cases import LoadCases, load_cases
     from drystone.equilibrium.margins import Margin, margin
+    from drystone.equilibrium.settled import Joint, Settled
     from drystone.equilibrium.strong import Escape
     from drystone.equilibrium.structure import Structure
     from drystone.equilibrium.verdict import Verdict, check
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
     from drystone.motion.world import StepRecord, World
     from drystone.planning.answer import Blocked, Move, Plan, TestRecord
     from drystone.planning.search import plan
-    from drystone.scene import Body, Contact, Load, Piece, Scene, Solid
+    from drystone.scene import Body, Contact, Load, Piece, Scene, Settlement, Solid
 
 __all__ = [
     "Blocked",
@@ -51,6 +52,7 @@ __all__ = [
     "DrystoneError",
     "EngineError",
     "Escape",
+    "Joint",
     "LcpError",
     "Limit",
     "LimitEnd",
@@ -66,6 +68,8 @@ __all__ = [
     "Scene",
     "SceneError",
     "ScenePlan",
+    "Settled",
+    "Settlement",
     "SimulationError",
     "Solid",
     "StartError",
@@ -105,6 +109,7 @@ _HOMES = {
     "DrystoneError": "drystone._core",
     "EngineError": "drystone.many",
     "Escape": "drystone.equilibrium.strong",
+    "Joint": "drystone.equilibrium.settled",
     "LcpError": "drystone._core",
     "Limit": "drystone.equilibrium.limits",
     "LimitEnd": "drystone.equilibrium.limits",
@@ -119,6 +124,8 @@ _HOMES = {
     "Scene": "drystone.scene",
     "SceneError": "drystone._core",
     "ScenePlan": "drystone.many",
+    "Settled": "drystone.equilibrium.settled",
+    "Settlement": "drystone.scene",
     "SimulationError": "drystone._core",
     "Solid": "drystone.scene",
     "StartError": "drystone._core",

@@ -31,6 +31,7 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "Settled",
     "SimulationError",
     "Solid",
     "StartError",
@@ -45,6 +46,7 @@ __all__ = [
     "__version__",
     "add_load",
     "add_pressure",
+    "add_settlement",
     "catalogue",
     "check",
     "contact_solve",
@@ -60,8 +62,11 @@ __all__ = [
     "pair_frictions",
     "plan",
     "set_friction",
+    "settle",
+    "settlements",
     "strong",
     "with_gravity",
+    "without_settlements",
 ]
 
 __version__: str
@@ -321,6 +326,25 @@ class Escape:
     accelerations: NDArray[np.float64]
     forces: ContactForces
     error: float
+
+@final
+class Settled:
+    """`displacements` (blocks, 3 or 6) of the bodies `names`, m and rad. `joints`: two bodies, what
+    their joint does ("hinge", "slides", "parts"), where, and how far it opens and slides, m."""
+
+    status: str
+    names: list[str]
+    displacements: NDArray[np.float64]
+    joints: list[tuple[str, str, str, tuple[float, ...], float, float]]
+    forces: Forces | None
+    work: float
+    bound: float
+    imbalance: float
+    closing: float
+    resolution: float
+    squeezed: list[str]
+    iterations: int
+    seconds: float
 
 @final
 class Strong:
@@ -723,6 +747,29 @@ def loads(
     scene: Scene,
 ) -> list[tuple[str, str, tuple[float, ...], tuple[float, ...], list[float]]]:
     """(name, body, force, where it acts in the world, moment) of every permanent load."""
+
+def add_settlement(
+    scene: Scene,
+    body: str,
+    displacement: Sequence[float],
+    rotation: Sequence[float],
+    at: Sequence[float] | None,
+) -> None:
+    """`rotation` has three numbers, of which the plane uses the last."""
+
+def settlements(
+    scene: Scene,
+) -> list[tuple[str, tuple[float, ...], list[float], tuple[float, ...]]]:
+    """(body, displacement, rotation, about which point of the world) of every settlement."""
+
+def without_settlements(scene: Scene) -> Scene: ...
+def settle(
+    scene: Scene,
+    blocks: Sequence[str] | None = None,
+    cones: tuple[int, str] | None = None,
+    round_cones: bool = False,
+) -> Settled:
+    """How the blocks of a structure that stands follow the settlements."""
 
 def pair_frictions(scene: Scene) -> list[tuple[str, str, float]]: ...
 def generators(scene: Scene, cones: tuple[int, str] | None = None) -> Generators:

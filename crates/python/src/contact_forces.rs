@@ -2,10 +2,11 @@
 
 use crate::{arrays::vector, coordinates::Coordinates, errors::no_forces, watch::interruptible};
 use drystone::{
-    Feature,
+    Contact, Feature,
     canonical::canonical_forces,
     formulate::{Assembly, ContactForce as Force, FrictionCone},
     geometry::Numbers,
+    settle::{Settled, canonical_forces_after},
     simulate::ContactImpulse,
 };
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -74,33 +75,55 @@ struct Row {
 pub struct Forces {
     assembly: Arc<Assembly>,
     cone: FrictionCone,
-    verdict: drystone::Verdict,
+    of: Of,
+}
+
+/// Whose forces.
+enum Of {
+    Verdict(Box<drystone::Verdict>),
+    Settled(Box<Settled>),
 }
 
 impl Forces {
     /// Of a verdict with these friction cones.
     pub fn new(assembly: Arc<Assembly>, cone: FrictionCone, verdict: drystone::Verdict) -> Self {
-        Self { assembly, cone, verdict }
+        Self { assembly, cone, of: Of::Verdict(Box::new(verdict)) }
+    }
+
+    /// Those after a settlement.
+    pub fn after(assembly: Arc<Assembly>, cone: FrictionCone, settled: Settled) -> Self {
+        Self { assembly, cone, of: Of::Settled(Box::new(settled)) }
+    }
+
+    /// Those that were found.
+    fn found(&self) -> &[(Contact, Force)] {
+        match &self.of {
+            Of::Verdict(verdict) => &verdict.forces,
+            Of::Settled(settled) => &settled.forces,
+        }
     }
 }
 
 #[pymethods]
 impl Forces {
     fn canonical(&self, py: Python<'_>) -> PyResult<Option<ContactForces>> {
-        let forces = interruptible(py, || canonical_forces(&self.assembly, self.cone, &self.verdict))?;
+        let forces = interruptible(py, || match &self.of {
+            Of::Verdict(verdict) => canonical_forces(&self.assembly, self.cone, verdict),
+            Of::Settled(settled) => canonical_forces_after(&self.assembly, self.cone, settled),
+        })?;
         Ok(forces.map(|forces| ContactForces::new(&self.assembly, forces.iter())))
     }
 
     fn any(&self) -> ContactForces {
-        ContactForces::new(&self.assembly, self.verdict.forces.iter().map(|(_, force)| force))
+        ContactForces::new(&self.assembly, self.found().iter().map(|(_, force)| force))
     }
 
     fn at_borders(&self) -> bool {
-        self.verdict.forces.iter().any(|(contact, _)| contact.id.feature.at_borders())
+        self.found().iter().any(|(contact, _)| contact.id.feature.at_borders())
     }
 
     fn __len__(&self) -> usize {
-        self.verdict.forces.len()
+        self.found().len()
     }
 }
 

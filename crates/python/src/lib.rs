@@ -16,6 +16,7 @@ mod plan;
 mod recording;
 mod run;
 mod scene;
+mod settle;
 mod strong;
 mod structure;
 mod verdict;
@@ -39,6 +40,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<verdict::Verdict>()?;
     module.add_class::<limit::Limit>()?;
     module.add_class::<limit::LimitEnd>()?;
+    module.add_class::<settle::Settled>()?;
     module.add_class::<strong::Strong>()?;
     module.add_class::<strong::Escape>()?;
     module.add_class::<margin::Margin>()?;
@@ -68,6 +70,10 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(loads::with_gravity, module)?)?;
     module.add_function(wrap_pyfunction!(loads::loads, module)?)?;
     module.add_function(wrap_pyfunction!(loads::pair_frictions, module)?)?;
+    module.add_function(wrap_pyfunction!(settle::add_settlement, module)?)?;
+    module.add_function(wrap_pyfunction!(settle::settlements, module)?)?;
+    module.add_function(wrap_pyfunction!(settle::without_settlements, module)?)?;
+    module.add_function(wrap_pyfunction!(settle::settle, module)?)?;
     module.add_function(wrap_pyfunction!(verdict::check, module)?)?;
     module.add_function(wrap_pyfunction!(plan::generators, module)?)?;
     module.add_function(wrap_pyfunction!(plan::plan, module)?)?;

@@ -74,12 +74,20 @@ def check(
     strong_budget: Annotated[
         int | None, typer.Option(min=1, metavar="NODES", help="Most nodes of that search.")
     ] = None,
+    settle: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="SUPPORT:X,Y[,TURN]",
+            help="Let a support settle by so many metres and radians, beside what the scene says. "
+            "May be repeated. In space SUPPORT:X,Y,Z[,RX,RY,RZ].",
+        ),
+    ] = None,
 ) -> int:
     """Does it stand? With which contact forces; if not, how does it begin to fall?"""
     from drystone.cli import check as command
 
     return command.run(
-        scene, blocks, block, as_json, output, facets, cone, forces, strong, strong_budget
+        scene, blocks, block, as_json, output, facets, cone, forces, strong, strong_budget, settle
     )
 
 

@@ -8,13 +8,14 @@ from pathlib import Path
 
 from drystone.cli.errors import InputError
 from drystone.cli.forces import with_forces_in_time
-from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
+from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
 from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
 from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
-from drystone.report.tables import verdict_table
+from drystone.report.tables import joints_table, verdict_table
+from drystone.scene import Scene
 
 
 def run(
@@ -28,8 +29,11 @@ def run(
     forces: WhichForces | None,
     strong: bool,
     budget: int | None,
+    settle: Sequence[str] | None,
 ) -> int:
     """0 if it stands, 1 if not, 2 if there is no verdict.
+
+    A settlement that no rigid blocks can follow, or without an answer, is 2 as well.
 
     With `strong` 0 if it must stand, 1 if it need not, 2 if that was not decided.
     """
@@ -38,6 +42,8 @@ def run(
     names = chosen(blocks, block)
     if budget is not None and not strong:
         raise InputError("--strong-budget goes with --strong")
+    for text in settle or ():
+        _add_settlement(scene, text)
     verdict = check(
         scene,
         names,
@@ -49,7 +55,7 @@ def run(
     )
     if forces is None:
         verdict = with_forces_in_time(verdict)
-    draw(verdict if verdict.escape is None else verdict.escape, picture)
+    draw(verdict.settled or verdict.escape or verdict, picture)
     if as_json:
         verdict.write_json(sys.stdout)
     else:
@@ -58,7 +64,22 @@ def run(
         raise InputError(f"{scene_name}: no verdict ({verdict.status})")
     if strong and verdict.must_stand is None:
         raise InputError(f"{scene_name}: not decided whether it must stand ({verdict.nodes} nodes)")
+    if verdict.settled is not None and verdict.settled.status != "solved":
+        raise InputError(f"{scene_name}: {verdict.settled}")
     return 0 if (verdict.must_stand if strong else verdict.stable) else 1
+
+
+def _add_settlement(scene: Scene, text: str) -> None:
+    name, colon, moved = text.rpartition(":")
+    given, n = numbers(moved, f"--settle {text}"), scene.dimension
+    turns = 1 if n == 2 else 3
+    if not colon or len(given) not in (n, n + turns):
+        raise InputError(
+            f"--settle {text}: give a support and {n} numbers in metres, as "
+            f"right:{','.join(['0'] * (n - 1))},-0.01; behind them, if it turns, {turns} in radians"
+        )
+    turn = None if len(given) == n else given[n] if n == 2 else given[n:]
+    scene.add_settlement(name, given[:n], turn)
 
 
 def _print(verdict: Verdict, picture: Path | None) -> None:
@@ -66,8 +87,11 @@ def _print(verdict: Verdict, picture: Path | None) -> None:
     undecided = verdict.status != "solved"
     colour = "yellow" if undecided else "green" if verdict.stable else "red"
     out.print(str(verdict), style=f"bold {colour}")
-    out.print(verdict_table(verdict))
-    if verdict.stable and verdict.forces.kind == ANY:
+    if verdict.settled is not None:
+        out.print(joints_table(verdict.settled))
+    else:
+        out.print(verdict_table(verdict))
+    if verdict.settled is None and verdict.stable and verdict.forces.kind == ANY:
         out.print("These forces are some of many; --forces canonical computes those of least norm.")
     if picture is not None:
         out.print(said_of(picture), soft_wrap=True)

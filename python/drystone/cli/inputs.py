@@ -89,6 +89,14 @@ def listed(text: str | None) -> list[str]:
     return [name.strip() for name in (text or "").split(",") if name.strip()]
 
 
+def numbers(text: str, what: str) -> tuple[float, ...]:
+    """Numbers separated by commas."""
+    try:
+        return tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError(f"{what}: {text!r} is no list of numbers, as 9.81,0") from None
+
+
 def chosen(blocks: str | None, block: Sequence[str] | None) -> list[str] | None:
     """The names given by --blocks and --block; None if there is neither."""
     return None if blocks is None and not block else [*listed(blocks), *(block or ())]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
+from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import Cone
 from drystone.common.json_text import write_json
@@ -57,14 +57,6 @@ def _push(text: str) -> tuple[str, tuple[float, ...]]:
     if not colon:
         raise InputError(f"--push {text}: give a block and a force, as 7:100,0")
     return name, numbers(force, f"--push {text}")
-
-
-def numbers(text: str, what: str) -> tuple[float, ...]:
-    """Numbers separated by commas."""
-    try:
-        return tuple(float(part) for part in text.split(","))
-    except ValueError:
-        raise InputError(f"{what}: {text!r} is no list of numbers, as 9.81,0") from None
 
 
 def _print(out: Console, found: Limit, picture: Path | None) -> None:

@@ -24,6 +24,7 @@ from drystone.equilibrium.contact_force import (
     WhichForces,
     which_forces,
 )
+from drystone.equilibrium.settled import Settled
 from drystone.equilibrium.strong import BUDGET, Escape
 from drystone.scene import NearMiss, Scene
 from drystone.scene.scene import scene_of
@@ -111,6 +112,9 @@ class Verdict(Drawn):
     nodes: int | None = None
     """With `strong=True`: nodes of the search, the same in every run; see
     docs/theory/strong-stability.md."""
+    settled: Settled | None = None
+    """How the blocks follow the settlements of the scene's supports (`Scene.add_settlement`): which
+    hinges open, and the forces after it. None if there are none, or if it does not stand."""
 
     @classmethod
     def _of(
@@ -192,7 +196,8 @@ class Verdict(Drawn):
             if self.borders:
                 points += f" ({len(self.borders)} bearing where only corners or edges meet)"
             blocks = counted(len(self.names), "block")
-            return f"{self._standing()}: {blocks}, {points}; {work}{self._searched()}."
+            standing = f"{self._standing()}: {blocks}, {points}; {work}{self._searched()}."
+            return standing if self.settled is None else f"{standing}\n{self.settled}"
         blocks = f"{len(self.falling)} of {counted(len(self.names), 'block')}"
         fall = f"Falls: {blocks} ({shorten(self.falling)}); {work}."
         return "\n".join([fall, *self._explanation().lines()])
@@ -232,6 +237,7 @@ class Verdict(Drawn):
             "status": self.status,
             "certain": self.certain,
             **self._strong_to_dict(),
+            **({} if self.settled is None else {"settled": self.settled.to_dict()}),
             "virtual_motion": self.virtual_motion,
             "doubt": None if self.doubt is None else list(self.doubt),
             "falling": list(self.falling),
@@ -314,6 +320,8 @@ def check(
 
     Raises SceneError for an unknown name, or bodies that overlap.
 
+    Where supports settle (`Scene.add_settlement`), `Verdict.settled` says how the blocks follow.
+
     "It stands" says that it *can*: forces exist that hold it. With `strong=True` it is decided as
     well whether it *must* (`Verdict.must_stand`): whether rest is the only motion that the laws of
     contact allow (strong stability: Pang and Trinkle 2000). A block that hangs between two walls
@@ -339,6 +347,9 @@ def check(
         outer = _core.check(scene._core, names, method, (facets, CONES[1]))
         if outer.status == "solved" and not outer.stable:
             verdict = replace(verdict, certain=True)
+    if verdict.stable and scene.settlements:
+        core_settled = _core.settle(scene._core, names, (facets, inner), round_cone)
+        verdict = replace(verdict, settled=Settled._of(core_settled, scene, forces))
     return _searched(verdict, names, strong_budget) if strong else verdict
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from drystone.equilibrium.limits import Limit
 from drystone.equilibrium.margins import Margin
+from drystone.equilibrium.settled import Settled
 from drystone.equilibrium.strong import Escape
 from drystone.equilibrium.structure import Structure
 from drystone.equilibrium.verdict import Verdict
@@ -16,6 +17,7 @@ from drystone.pictures.canvas import drawing_on
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
 from drystone.pictures.limits import escape_figure, limit_figure, margin_figure
 from drystone.pictures.recording import frame_figure
+from drystone.pictures.settled import settled_figure
 from drystone.planning.answer import Plan
 from drystone.recording.of_run import recording_of_run
 from drystone.scene import Scene
@@ -36,6 +38,7 @@ figure_of.register(Verdict, verdict_figure)
 figure_of.register(Limit, limit_figure)
 figure_of.register(Margin, margin_figure)
 figure_of.register(Escape, escape_figure)
+figure_of.register(Settled, settled_figure)
 figure_of.register(Plan, plan_figure)
 
 

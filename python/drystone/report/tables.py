@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from drystone.common.text import MOST_ROWS, shown
 from drystone.common.units import scale_of
+from drystone.equilibrium.settled import Settled
 from drystone.equilibrium.verdict import Verdict
 from drystone.motion.run import Run
 from drystone.planning.answer import Plan
@@ -73,6 +74,11 @@ def _(verdict: Verdict, rows: int = MOST_ROWS) -> str:
     return text_of(verdict_table(verdict, rows, IN_PYTHON))
 
 
+@text.register(Settled)
+def _(settled: Settled, rows: int = MOST_ROWS) -> str:
+    return text_of(joints_table(settled, rows, IN_PYTHON))
+
+
 @text.register(Plan)
 def _(plan: Plan, rows: int = MOST_ROWS) -> str:
     return text_of(plan_table(plan, rows))
@@ -126,6 +132,23 @@ def motion_table(motion: Mapping[str, NDArray[np.float64]], dimension: int) -> T
     for name in list(motion)[:MOST_ROWS]:
         made.add_row(shown(name), *_cells(motion[name]))
     return cut(made, len(motion))
+
+
+def joints_table(settled: Settled, rows: int = MOST_ROWS, more: str = IN_JSON) -> Table:
+    """The joints that a settlement opens."""
+    metres = [f"{axis} [m]" for axis in "xyz"[: settled.scene.dimension]]
+    size, unit = scale_of([joint.opens for joint in settled.joints], "m")
+    made = table("joint", "does", *metres, f"opens [{unit}]", f"slides [{unit}]", left=("does",))
+    largest = max((max(joint.opens, joint.slides) for joint in settled.joints), default=0.0) / size
+    furthest = max((abs(x) for joint in settled.joints for x in joint.at), default=0.0)
+    for joint in settled.joints[:rows]:
+        made.add_row(
+            f"{shown(joint.a)} - {shown(joint.b)}",
+            joint.opening,
+            *(_cell(value, furthest) for value in joint.at),
+            *(_cell(value / size, largest) for value in (joint.opens, joint.slides)),
+        )
+    return cut(made, len(settled.joints), rows, more)
 
 
 def _cells(values: NDArray[np.float64]) -> list[str]:

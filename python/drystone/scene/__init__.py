@@ -6,6 +6,7 @@ from drystone.scene.loads import Load
 from drystone.scene.near_miss import NearMiss
 from drystone.scene.overlaps import Overlap
 from drystone.scene.scene import Scene
+from drystone.scene.settlements import Settlement
 from drystone.scene.weight import Inertia
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Piece",
     "Point",
     "Scene",
+    "Settlement",
     "Solid",
     "Surface",
 ]

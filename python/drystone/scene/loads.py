@@ -31,18 +31,24 @@ def listed(scene: _core.Scene) -> tuple[Load, ...]:
     def load(
         name: str, body: str, force: tuple[float, ...], at: tuple[float, ...], moment: list[float]
     ) -> Load:
-        x, *others = moment
-        turning = (x, others[0], others[1]) if others else x
-        return Load(name, body, force, at, turning)
+        return Load(name, body, force, at, axial(moment))
 
     return tuple(load(*found) for found in _core.loads(scene))
 
 
-def turning(value: float | Sequence[float] | None, dimension: int) -> tuple[float, float, float]:
-    """A moment as the core takes it: three numbers, of which the plane uses the last."""
+def axial(numbers: Sequence[float]) -> float | tuple[float, float, float]:
+    """A moment or a turn of the core as users have it: a number in the plane, three in space."""
+    x, *others = numbers
+    return (x, others[0], others[1]) if others else x
+
+
+def turning(
+    value: float | Sequence[float] | None, dimension: int, what: str = "moment"
+) -> tuple[float, float, float]:
+    """A moment or a turn as the core takes it: three numbers, of which the plane uses the last."""
     if value is None:
         return 0.0, 0.0, 0.0
     if dimension == 2:
-        return 0.0, 0.0, number(value, "moment in the plane")
-    x, y, z = vector(value, 3, "moment")
+        return 0.0, 0.0, number(value, f"{what} in the plane")
+    x, y, z = vector(value, 3, what)
     return x, y, z

@@ -12,11 +12,14 @@ from drystone.common import later
 from drystone.common.drawn import Paged
 from drystone.common.files import write_whole
 from drystone.common.numbers import name_of, number, optional_name, vector
+from drystone.common.text import counted
 from drystone.scene.adding import Adding, Point
 from drystone.scene.body import Body, Contact, Solid, snapshot
 from drystone.scene.loads import Load, listed, turning
 from drystone.scene.near_miss import NearMiss
 from drystone.scene.overlaps import Overlap
+from drystone.scene.settlements import Settlement
+from drystone.scene.settlements import listed as listed_settlements
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -147,6 +150,51 @@ class Scene(Adding, Paged):
         value = number(friction, "friction")
         _core.set_friction(self._core, name_of(a), name_of(b), value)
 
+    def add_settlement(
+        self,
+        body: str,
+        displacement: Point | None = None,
+        rotation: float | Sequence[float] | None = None,
+        at: Point | None = None,
+    ) -> None:
+        """Prescribe a small displacement of a support, which `check` answers.
+
+        - `displacement` is in metres, along the axes of the world.
+        - `rotation` is in radians, counter-clockwise; in space it is three numbers, about the axes
+          of the world. It is at most 0.1.
+        - `at` (metres, world coordinates) is the point about which the support turns, and whose
+          displacement is given: by default the centroid of the body.
+
+        Several settlements of one support add up. `check` says how the blocks follow
+        (`Verdict.settled`). Whether a structure stands does not depend on it: for rigid blocks the
+        equilibrium is that of the shape before, so `plan`, `limit`, `margin` and `Structure` take
+        no notice. `simulate` and `World` refuse a scene with settlements.
+
+        Raises SceneError for an unknown body, one that is not fixed, or wrong numbers.
+
+        >>> import drystone as ds
+        >>> scene = ds.Scene(friction=0.5)
+        >>> for name, x in (("left", -2), ("right", 2)):
+        ...     _ = scene.add_box((x, -0.5), (1, 1), name=name, fixed=True)
+        >>> _ = scene.add_box((0, 0.2), (4, 0.4), name="beam")
+        >>> scene.add_settlement("right", (0, -0.01))
+        >>> settled = ds.check(scene).settled
+        >>> [(hinge.b, hinge.at) for hinge in settled.hinges]
+        [('beam', (-1.5, 0.0)), ('beam', (2.0, 0.0))]
+        """
+        n = self.dimension
+        _core.add_settlement(
+            self._core,
+            name_of(body),
+            [0.0] * n if displacement is None else vector(displacement, n, "displacement"),
+            turning(rotation, n, "rotation"),
+            None if at is None else vector(at, n, "at"),
+        )
+
+    def without_settlements(self) -> Scene:
+        """The same scene with all supports where they are."""
+        return Scene._of(_core.without_settlements(self._core))
+
     def with_gravity(self, gravity: Point) -> Scene:
         """The same scene, loads included, under another gravity (m/s^2)."""
         found = vector(gravity, self.dimension, "gravity")
@@ -267,6 +315,11 @@ class Scene(Adding, Paged):
         return listed(self._core)
 
     @property
+    def settlements(self) -> tuple[Settlement, ...]:
+        """The settlements of supports, body by body; see `add_settlement`."""
+        return listed_settlements(self._core)
+
+    @property
     def pair_friction(self) -> dict[tuple[str, str], float]:
         """Pairs of bodies with a coefficient of friction of their own; see `set_friction`."""
         return {(a, b): friction for a, b, friction in _core.pair_frictions(self._core)}
@@ -304,6 +357,8 @@ class Scene(Adding, Paged):
         where = "" if self.dimension == 2 else " in space"
         count = f"{len(self)} bodies{where}, {fixed} of them fixed"
         loads = f", {len(self.loads)} loads" if self.loads else ""
+        if self.settlements:
+            loads += f", {counted(len(self.settlements), 'settlement')}"
         return f"<Scene: {count}{loads}, friction {self.friction:g}>"
 
     def view(self) -> Page:
