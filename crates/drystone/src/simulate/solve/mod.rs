@@ -20,7 +20,8 @@ pub use warm_start::SavedStart;
 use super::{error::StepFailure, kinematics::Kinematics, state::State};
 use drystone_lcp::Counts;
 
-/// Solves a step: as one at rest, on round cones, or by pivots; if these fail, from scratch with the solver's own tolerances.
+/// Solves a step: as one at rest, on round cones, or by pivots; if these fail, from scratch with the solver's own tolerances. Where pivots do not come
+/// to the law, Newton's method goes on from there on round cones.
 ///
 /// # Errors
 /// [`StepFailure::Unsolved`]; nothing is taken over then.
@@ -45,5 +46,13 @@ pub fn solve<S: Kinematics>(
         previous.forget();
         StepFailure::Unsolved { status: status.name() }
     })?;
+    let nearer = if motion.exact { None } else { round_cones::solve_after_pivots(state, step, &motion) };
+    let motion = match nearer {
+        Some(mut nearer) => {
+            nearer.add_earlier(&motion);
+            nearer
+        }
+        None => motion,
+    };
     Ok(Motion { counts: motion.counts + work, ..motion })
 }

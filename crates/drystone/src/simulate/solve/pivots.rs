@@ -16,12 +16,16 @@ use super::{
     previous_step::PreviousStep,
     rest::{other_start, start_from_interior},
     step_problem::{Motion, StepProblem},
-    tolerance::{FRICTION_ACCEPTED, MOST_SOLVES, acceptable},
+    tolerance::{BEFORE_NEWTON, FRICTION_ACCEPTED, MOST_SOLVES, acceptable},
     warm_start::NextProblem,
 };
 use crate::{
     contact::candidates::shift,
-    simulate::{kinematics::Kinematics, options::COULOMB_TOLERANCE, state::State},
+    simulate::{
+        kinematics::Kinematics,
+        options::{COULOMB_TOLERANCE, Reuse},
+        state::State,
+    },
 };
 use drystone_lcp::{Counts, LcpError, Status};
 use std::time::{Duration, Instant};
@@ -49,20 +53,21 @@ pub fn solve_by_pivots<S: Kinematics>(
     let tolerance = step.coulomb_tolerance(state);
     // More than the usual tolerance is asked for by those who want to be done sooner.
     let sooner = if state.options.coulomb_tolerance > COULOMB_TOLERANCE { tolerance } else { 0.0 };
+    let most = if state.options.reuse == Reuse::Full { BEFORE_NEWTON } else { MOST_SOLVES };
     let mut point = FixedPoint::new();
     let mut best = (f64::INFINITY, Vec::new());
     let mut solves = 0;
     loop {
         let trial = try_sliding(state, previous, step, &assumed, &mut time)?;
         solves += 1;
-        if acceptable(trial.error, solves, speed) || trial.error <= sooner || solves > MOST_SOLVES {
-            let exact = acceptable(trial.error, MOST_SOLVES, speed) || trial.error <= tolerance;
+        if acceptable(trial.error, solves, speed) || trial.error <= sooner || solves > most {
+            let exact = acceptable(trial.error, most, speed) || trial.error <= tolerance;
             return Ok(Motion { exact, solves, rows_reused, time, ..motion(previous, step, trial) });
         }
         if trial.error < best.0 {
             best = (trial.error, assumed.clone());
         }
-        assumed = if solves == MOST_SOLVES {
+        assumed = if solves == most {
             std::mem::take(&mut best.1)
         } else {
             point.next(&assumed, &trial.sliding, trial.error)

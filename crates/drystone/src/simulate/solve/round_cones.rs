@@ -98,9 +98,47 @@ pub fn solve_on_round_cones<S: Kinematics>(
     previous: &mut PreviousStep<S>,
     step: &StepProblem<'_, S>,
 ) -> Option<Motion<S>> {
+    if !on_round_cones(state, previous, step) {
+        return None;
+    }
+    let impulses = match &previous.problem {
+        Some(before) => impulses_before(previous, step.contacts, before),
+        None => Vec::new(),
+    };
+    let most = if state.is_at_rest() { COARSE_FROM_REST } else { COARSE };
+    let motion = from_impulses(state, step, &impulses).filter(|motion| is_within(motion, most, state))?;
+    // What pivots had taken over is of another step from now on.
+    previous.solver.forget();
+    previous.at_rest = None;
+    Some(motion)
+}
+
+fn is_within<S: Kinematics>(motion: &Motion<S>, share: f64, state: &State<S>) -> bool {
+    motion.residual <= share.max(state.options.coulomb_tolerance)
+}
+
+/// Solves a step from where pivots ended that did not come to the law. None where what they found is as near, or nothing near the law was
+/// found: theirs lets nothing through. They keep what they take over.
+pub fn solve_after_pivots<S: Kinematics>(
+    state: &State<S>,
+    step: &StepProblem<'_, S>,
+    pivots: &Motion<S>,
+) -> Option<Motion<S>> {
+    if state.options.reuse != Reuse::Full {
+        return None;
+    }
+    let nearer = |motion: &Motion<S>| motion.friction_error < pivots.friction_error && is_within(motion, COARSE, state);
+    from_impulses(state, step, &pivots.impulses).filter(nearer)
+}
+
+/// From impulses in world axes, contact after contact, or from none. None without friction: cones are lines then, and pivots exact.
+fn from_impulses<S: Kinematics>(
+    state: &State<S>,
+    step: &StepProblem<'_, S>,
+    impulses: &[S::Vector],
+) -> Option<Motion<S>> {
     let candidates = step.contacts.candidates();
-    // Without friction cones are lines, and pivots exact.
-    if !on_round_cones(state, previous, step) || candidates.iter().all(|candidate| candidate.friction == 0.0) {
+    if candidates.iter().all(|candidate| candidate.friction == 0.0) {
         return None;
     }
     let begun = Instant::now();
@@ -117,26 +155,24 @@ pub fn solve_on_round_cones<S: Kinematics>(
     let frames: Vec<Frame<S>> = candidates.iter().map(|candidate| frame::<S>(&candidate.normal)).collect();
     bodies.contacts =
         (0..candidates.len()).map(|k| contact::<S>(&candidates[k], step.offsets[k], &frames[k], &place)).collect();
-    let start = previous.problem.as_ref().map(|before| start(previous, step.contacts, before, &frames));
+    let along = |(frame, impulse): (&Frame<S>, &S::Vector)| {
+        let impulse = *impulse;
+        frame.map(|axis| product(&impulse, &axis)).into_iter().take(axes)
+    };
+    let start: Vec<f64> = frames.iter().zip(impulses).flat_map(along).collect();
+    let start = Some(start.as_slice()).filter(|start| !start.is_empty());
     let scale = norm(state.scene.gravity().as_ref()) * state.options.dt;
     let tolerance = state.options.coulomb_tolerance;
     let aim = if axes == 2 { IN_PLANE * tolerance } else { tolerance };
     let settings = Settings { scale, relative_tolerance: aim, newton_steps: NEWTON_STEPS, ..Settings::default() };
-    let solution = bodies.solve(start.as_deref(), &settings).ok()?;
+    let solution = bodies.solve(start, &settings).ok()?;
     let speed = solution.tolerance / aim;
-    let most = if state.is_at_rest() { COARSE_FROM_REST } else { COARSE };
-    if solution.error.is_nan() || solution.error > most.max(tolerance) * speed {
-        return None;
-    }
     let mut velocities = step.free.to_vec();
     for (velocity, place) in velocities.iter_mut().zip(&place) {
         if let Some(place) = place {
             velocity.as_mut().copy_from_slice(&solution.velocities[size * place..][..size]);
         }
     }
-    // What pivots had taken over is of another step from now on.
-    previous.solver.forget();
-    previous.at_rest = None;
     let sliding = candidates.iter().zip(&frames).map(|(candidate, [_, one, two])| {
         let u = relative_velocity::<S>(candidate, &velocities);
         product(&u, one).hypot(product(&u, two))
@@ -162,19 +198,14 @@ pub fn solve_on_round_cones<S: Kinematics>(
     })
 }
 
-/// The impulses of the step before at the contacts that are still there, in the frames of now.
-fn start<S: Kinematics>(
+/// The impulses of the step before at the contacts that are still there, in world axes.
+fn impulses_before<S: Kinematics>(
     previous: &PreviousStep<S>,
     problem: &ContactProblem<S>,
     before: &ContactProblem<S>,
-    frames: &[Frame<S>],
-) -> Vec<f64> {
-    let of = |(k, old): (usize, Option<usize>)| {
-        let impulse = old.and_then(|old| previous.impulses.get(old));
-        let along = move |axis: &S::Vector| impulse.map_or(0.0, |impulse| product(impulse, axis));
-        frames[k][..axes::<S>()].iter().map(along)
-    };
-    problem.matches(before).flat_map(of).collect()
+) -> Vec<S::Vector> {
+    let of = |old: Option<usize>| old.and_then(|old| previous.impulses.get(old)).copied().unwrap_or_default();
+    problem.matches(before).map(|(_, old)| of(old)).collect()
 }
 
 /// The normal and two tangents, of which the second is zero in the plane.
