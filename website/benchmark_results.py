@@ -117,9 +117,27 @@ def _verdicts(every: Iterable[Row]) -> tuple[list[str], list[list[str]]]:
     return ["structure", "contact points", "verdict", "drystone", *peers], lines
 
 
+def _hard(every: Iterable[Row]) -> tuple[list[str], list[list[str]]]:
+    """Who falls, how deep blocks are in one another, and the time of a step."""
+    every = list(every)
+    names = list(dict.fromkeys(row["simulator"] for row in every))
+    columns = ("fallen", "penetration", "microseconds")
+    lines = []
+    for scene in dict.fromkeys(row["scene"] for row in every):
+        own = {row["simulator"]: row for row in every if row["scene"] == scene}
+        first = next(iter(own.values()))
+        line = [scene, first["blocks"], {"stand": "0", "fall": "all"}[first["should"]]]
+        cells = (own[name][column] or "-" for name in names for column in columns)
+        lines.append(line + [cell if cell == "-" else f"{float(cell):.3g}" for cell in cells])
+    words = ("fallen", "overlap, m", "µs")
+    head = ["scene", "blocks", "should fall"]
+    return [*head, *(f"{name}: {word}" for name in names for word in words)], lines
+
+
 TABLES: dict[str, tuple[str, Callable[[Iterable[Row]], tuple[list[str], list[list[str]]]]]] = {
     "sequences": ("add", _sequences),
     "steps": ("simulation", _steps),
+    "hard": ("hard-scenes", _hard),
     "verdicts": ("cold", _verdicts),
 }
 """Name on the page, kind of file, and what makes the table."""

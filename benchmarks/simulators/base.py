@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +24,14 @@ class Motion:
     (k, n, 13): x, y, z, a unit quaternion (w, x, y, z), m/s, and rad/s along the world's axes."""
     stopped: str = ""
     """Why it did not get to the end; empty if it did."""
+    worst: float = math.nan
+    """Seconds of the slowest step; NaN where steps are not timed one by one."""
+    not_exact: int = 0
+    """Steps that say so themselves."""
+
+
+Velocities = Mapping[str, Sequence[float]]
+"""At the beginning, of the bodies that are not at rest, by name: m/s, m/s, rad/s."""
 
 
 class Simulator(ABC):
@@ -45,5 +55,13 @@ class Simulator(ABC):
         return
 
     @abstractmethod
-    def run(self, scene: ds.Scene, dt: float, steps: int, every: int) -> Motion:
-        """Make `steps` steps of `dt` seconds, and look at the bodies after each `every`."""
+    def run(
+        self,
+        scene: ds.Scene,
+        dt: float,
+        steps: int,
+        every: int,
+        velocities: Velocities | None = None,
+    ) -> Motion:
+        """Make `steps` steps of `dt` seconds, and look at the bodies after each `every`. With
+        `velocities`, which are for the plane only, some bodies move at the beginning."""

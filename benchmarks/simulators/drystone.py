@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 import drystone as ds
-from simulators.base import Motion, Simulator
+from simulators.base import Motion, Simulator, Velocities
 
 
 class Drystone(Simulator):
@@ -29,8 +29,17 @@ class Drystone(Simulator):
         """See `Simulator.missing`."""
         return ""
 
-    def run(self, scene: ds.Scene, dt: float, steps: int, every: int) -> Motion:
+    def run(
+        self,
+        scene: ds.Scene,
+        dt: float,
+        steps: int,
+        every: int,
+        velocities: Velocities | None = None,
+    ) -> Motion:
         """See `Simulator.run`."""
-        run = ds.simulate(scene, steps=steps, dt=dt, reuse=self.reuse)
+        run = ds.simulate(scene, steps=steps, dt=dt, reuse=self.reuse, velocities=velocities)
         frames = np.concatenate([run.poses, run.velocities], axis=2)[::every]
-        return Motion(float(run.step_seconds.sum()), frames, run.reason or "")
+        seconds = run.step_seconds
+        worst = float(seconds.max(initial=0.0))
+        return Motion(float(seconds.sum()), frames, run.reason or "", worst, run.not_exact)

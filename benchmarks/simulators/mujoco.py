@@ -20,7 +20,7 @@ import numpy as np
 
 import drystone as ds
 from judge import axes_of
-from simulators.base import Motion, Simulator
+from simulators.base import Motion, Simulator, Velocities
 
 DEPTH = 1.0
 """Metres: a box has the mass and the inertia of its rectangle."""
@@ -46,13 +46,23 @@ class MuJoCo(Simulator):
         """See `Simulator.missing`."""
         return "" if self.version() else "the Python package mujoco is not installed"
 
-    def run(self, scene: ds.Scene, dt: float, steps: int, every: int) -> Motion:
+    def run(
+        self,
+        scene: ds.Scene,
+        dt: float,
+        steps: int,
+        every: int,
+        velocities: Velocities | None = None,
+    ) -> Motion:
         """See `Simulator.run`."""
         import mujoco
 
         bodies = json.loads(scene.to_json())["bodies"]
         model = mujoco.MjModel.from_xml_string(_xml(scene, bodies, dt, self.cone))
         data = mujoco.MjData(model)
+        moving = [body["name"] for body in bodies if not body["fixed"]]
+        for name, velocity in (velocities or {}).items():
+            data.qvel[3 * moving.index(name) :][:3] = velocity
         states = _states if scene.dimension == 2 else _states_in_space
         frames = [states(bodies, data)]
         seconds = 0.0
@@ -75,6 +85,7 @@ def _xml(scene: ds.Scene, bodies: list[dict[str, Any]], dt: float, cone: str) ->
   <option timestep="{dt!r}" gravity="{_spaced(gravity)}" cone="{cone}"/>
   <size memory="500M"/>
   <default><geom type="box" condim="3"/></default>
+  <asset>{"".join(map(_mesh, bodies))}</asset>
   <worldbody>{"".join(made(body, scene.friction) for body in bodies)}</worldbody>
 </mujoco>"""
 
@@ -105,10 +116,26 @@ def _states_in_space(bodies: list[dict[str, Any]], data: Any) -> list[Any]:
     return [b if body["fixed"] else next(moved) for body, b in zip(bodies, begin, strict=True)]
 
 
+def _mesh(body: dict[str, Any]) -> str:
+    """The prism of a polygon."""
+    if "polygon" not in body:
+        return ""
+    corners = body["polygon"]["vertices"]
+    vertices = [(x, end * DEPTH / 2, y) for end in (-1, 1) for x, y in corners]
+    return f'<mesh name="{body["name"]}" vertex="{_spaced(sum(vertices, ()))}"/>'
+
+
+def _shape(body: dict[str, Any]) -> str:
+    if "polygon" in body:
+        return f'type="mesh" mesh="{body["name"]}"'
+    width, height = body["box"]["size"]
+    return f'size="{width / 2!r} {DEPTH / 2!r} {height / 2!r}"'
+
+
 def _body(body: dict[str, Any], friction: float) -> str:
-    (x, y), (width, height) = body["position"], body["box"]["size"]
+    x, y = body["position"]
     geom = (
-        f'<geom size="{width / 2!r} {DEPTH / 2!r} {height / 2!r}" density="{body["density"]!r}"'
+        f'<geom {_shape(body)} density="{body["density"]!r}"'
         f' friction="{body.get("friction", friction)!r} 0 0" euler="0 {-body["angle"]!r} 0"/>'
     )
     joints = '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 0 1"/>'

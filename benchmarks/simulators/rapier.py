@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import drystone as ds
-from simulators.base import Motion, Simulator
+from simulators.base import Motion, Simulator, Velocities
 
 FOLDER = Path(__file__).parents[1] / "rapier"
 PROGRAM = FOLDER / "target" / "release" / "rapier-benchmark"
@@ -49,11 +49,20 @@ class Rapier(Simulator):
         command = ["cargo", "build", "--release", "--locked", "--quiet"]
         subprocess.run(command, cwd=FOLDER, check=True)
 
-    def run(self, scene: ds.Scene, dt: float, steps: int, every: int) -> Motion:
+    def run(
+        self,
+        scene: ds.Scene,
+        dt: float,
+        steps: int,
+        every: int,
+        velocities: Velocities | None = None,
+    ) -> Motion:
         """See `Simulator.run`."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scene.json"
-            scene.save(path)
+            described = json.loads(scene.to_json()) | {"velocities": dict(velocities or {})}
+            path.write_text(json.dumps(described))
             command = [str(PROGRAM), str(path), repr(dt), str(steps), str(every)]
             answer = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-        return Motion(sum(answer["step_seconds"]), np.array(answer["frames"]))
+        seconds = answer["step_seconds"]
+        return Motion(sum(seconds), np.array(answer["frames"]), worst=max(seconds))

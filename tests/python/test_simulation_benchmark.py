@@ -14,6 +14,8 @@ import drystone as ds
 BENCHMARKS = str(Path(__file__).parents[2] / "benchmarks")
 sys.path.insert(0, BENCHMARKS)
 
+import hard_scene_list  # noqa: E402
+import hard_scenes  # noqa: E402
 import heaps  # noqa: E402
 import judge  # noqa: E402
 import simulation  # noqa: E402
@@ -149,3 +151,40 @@ def test_heaps_that_are_timed_obey_the_law() -> None:
     run = ds.simulate(heaps.heap(10), heaps.DT, 240)
     assert run.not_exact == 0
     assert len(heaps.cells(run)) == 3
+
+
+def test_hard_scenes_are_judged() -> None:
+    lines = {
+        name: next(hard_scenes.measure(name, [SIMULATORS["full"]]))
+        for name in ("arch", "card house, 5")
+    }
+    for line in lines.values():
+        assert (line["fallen"], line["drift"], line["penetration"], line["should"]) == (
+            0,
+            "0",
+            "0",
+            "stand",
+        )
+        assert set(line) == set(hard_scenes.COLUMNS)
+    hard = hard_scene_list.overlap_recovery()
+    frame = np.zeros((1, len(hard.scene), 6))
+    frame[0, :, :2] = [body.center_of_mass for body in hard.scene.bodies]
+    assert hard_scenes.deepest(hard.scene, frame) == pytest.approx(0.25)
+    frame[0, 1:, 1] -= 0.3
+    frame[0, 1, 2] = math.pi
+    assert hard_scenes.fallen(hard, frame[0]) == 10
+
+
+@pytest.mark.parametrize("key", SIMULATORS)
+def test_every_simulator_throws_a_polygon(key: str) -> None:
+    """A triangle that is thrown flies and turns for a twentieth of a second."""
+    simulator = SIMULATORS[key]
+    if simulator.missing():
+        pytest.skip(simulator.missing())
+    if key == "rapier" and not simulator.built():
+        pytest.skip("benchmarks/rapier is not built")
+    scene = ds.Scene(friction=0.5, gravity=(0, 0))
+    scene.add_box(center=(0, -0.5), size=(9, 1), name="ground", fixed=True)
+    scene.add_polygon([(0, 1), (3, 1), (0, 2.5)], name="triangle")
+    motion = simulator.run(scene, 0.001, 50, 25, {"triangle": (1.0, 0.5, 2.0)})
+    assert motion.frames[-1][1] == pytest.approx([1.05, 1.525, 0.1, 1, 0.5, 2], rel=1e-6)

@@ -10,7 +10,7 @@
 
 use rapier2d_f64::prelude::{ColliderBuilder, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle, Vector};
 use serde::{Deserialize, Serialize};
-use std::{error::Error, time::Instant};
+use std::{collections::HashMap, error::Error, time::Instant};
 
 /// What is needed of a scene file.
 #[derive(Deserialize)]
@@ -18,12 +18,16 @@ struct Scene {
     gravity: [f64; 2],
     friction: f64,
     bodies: Vec<Body>,
+    /// At the beginning, by name: m/s, m/s, rad/s.
+    #[serde(default)]
+    velocities: HashMap<String, [f64; 3]>,
 }
 
 #[derive(Deserialize)]
 struct Body {
-    #[serde(rename = "box")]
-    shape: Box2,
+    name: String,
+    #[serde(flatten)]
+    shape: Shape,
     position: [f64; 2],
     angle: f64,
     density: f64,
@@ -33,8 +37,10 @@ struct Body {
 }
 
 #[derive(Deserialize)]
-struct Box2 {
-    size: [f64; 2],
+#[serde(rename_all = "lowercase")]
+enum Shape {
+    Box { size: [f64; 2] },
+    Polygon { vertices: Vec<[f64; 2]> },
 }
 
 /// x, y, angle and their rates.
@@ -53,13 +59,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Err("usage: rapier-benchmark SCENE.json DT STEPS EVERY".into());
     };
     let scene: Scene = serde_json::from_str(&std::fs::read_to_string(file)?)?;
-    let answer = run(&scene, dt.parse()?, steps.parse()?, every.parse()?);
+    let answer = run(&scene, dt.parse()?, steps.parse()?, every.parse()?)?;
     serde_json::to_writer(std::io::stdout().lock(), &answer)?;
     Ok(())
 }
 
-fn run(scene: &Scene, dt: f64, steps: usize, every: usize) -> Answer {
-    let (mut world, handles) = world(scene, dt);
+fn run(scene: &Scene, dt: f64, steps: usize, every: usize) -> Result<Answer, String> {
+    let (mut world, handles) = world(scene, dt)?;
     let mut answer = Answer {
         version: rapier2d_f64::VERSION,
         step_seconds: Vec::with_capacity(steps),
@@ -73,24 +79,37 @@ fn run(scene: &Scene, dt: f64, steps: usize, every: usize) -> Answer {
             answer.frames.push(states(&world, &handles));
         }
     }
-    answer
+    Ok(answer)
 }
 
-fn world(scene: &Scene, dt: f64) -> (PhysicsWorld, Vec<RigidBodyHandle>) {
+fn world(scene: &Scene, dt: f64) -> Result<(PhysicsWorld, Vec<RigidBodyHandle>), String> {
     let mut world = PhysicsWorld { gravity: Vector::from_array(scene.gravity), ..PhysicsWorld::new() };
     world.integration_parameters.dt = dt;
-    let mut place = |body: &Body| {
+    let mut place = |body: &Body| -> Result<RigidBodyHandle, String> {
         let builder = if body.fixed { RigidBodyBuilder::fixed() } else { RigidBodyBuilder::dynamic() };
         let builder = builder.translation(Vector::from_array(body.position)).rotation(body.angle).can_sleep(false);
-        let [width, height] = body.shape.size;
-        let collider = ColliderBuilder::cuboid(0.5 * width, 0.5 * height)
+        let [vx, vy, turning] = scene.velocities.get(&body.name).copied().unwrap_or_default();
+        let builder = builder.linvel(Vector::from_array([vx, vy])).angvel(turning);
+        let collider = body.shape.collider().ok_or_else(|| format!("{} is not convex", body.name))?;
+        let collider = collider
             .density(body.density)
             .friction(body.friction.unwrap_or(scene.friction))
             .restitution(0.0);
-        world.insert(builder, collider).0
+        Ok(world.insert(builder, collider).0)
     };
-    let handles = scene.bodies.iter().map(&mut place).collect();
-    (world, handles)
+    let handles = scene.bodies.iter().map(&mut place).collect::<Result<_, _>>()?;
+    Ok((world, handles))
+}
+
+impl Shape {
+    fn collider(&self) -> Option<ColliderBuilder> {
+        match self {
+            Self::Box { size: [width, height] } => Some(ColliderBuilder::cuboid(0.5 * width, 0.5 * height)),
+            Self::Polygon { vertices } => {
+                ColliderBuilder::convex_polyline(vertices.iter().copied().map(Vector::from_array).collect())
+            }
+        }
+    }
 }
 
 fn states(world: &PhysicsWorld, handles: &[RigidBodyHandle]) -> Vec<State> {

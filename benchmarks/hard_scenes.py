@@ -1,0 +1,197 @@
+"""Hard scenes of Box2D, solver2d and Box3D: does it stand, here, in MuJoCo and in Rapier?
+
+    .venv/bin/pip install "mujoco<4"      # as far as wanted; Rapier needs cargo
+    .venv/bin/python benchmarks/hard_scenes.py [--scenes SCENE ...] [--simulators NAME ...]
+
+`hard_scene_list.py` says what they are and where they are from. 240 steps a second, for five
+seconds, dominoes for ten and the large pyramid for half a second. drystone takes overlaps back
+before it begins (`Scene.parted`); the others do so on their way.
+
+A body has fallen if its centre is lower than where it should be by more than a quarter of its
+longest side, or if it has turned by more than 45 degrees. *Drift* is how far a body went in the
+last quarter of the time, metres; *overlap* the deepest in the second half. Times are of the
+fastest of three runs. Results go to results/<machine>/<version>-<date>-hard-scenes.csv and to the
+screen.
+"""
+
+from __future__ import annotations
+
+import threads  # noqa: F401  (before anything that loads NumPy)
+
+# isort: split
+
+import argparse
+import math
+import os
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+import drystone as ds
+import results
+from hard_scene_list import SCENES, HardScene
+from simulators import Simulator
+from simulators.drystone import Drystone
+from simulators.mujoco import MuJoCo
+from simulators.rapier import Rapier
+
+SIMULATORS: dict[str, Simulator] = {
+    "drystone": Drystone("full"),
+    "mujoco": MuJoCo(cone="elliptic"),
+    "rapier": Rapier(),
+}
+RATE = 240
+LOOKS = 20
+"""Times that places are looked at."""
+
+ROUNDS = 3
+"""Runs of which the fastest counts; they move alike."""
+
+LONG = 5.0
+"""Seconds: what takes longer is run once."""
+
+FALLEN = 0.25
+"""Of the longest side."""
+
+TURNED = math.pi / 4
+
+LEFT_OUT = {("large pyramid", "MuJoCo"): "left out: more than two seconds a step"}
+
+COLUMNS = (
+    *results.WHERE,
+    "scene",
+    "blocks",
+    "friction",
+    "dt",
+    "steps",
+    "simulator",
+    "simulator_version",
+    "should",
+    "fallen",
+    "drift",
+    "penetration",
+    "microseconds",
+    "worst_ms",
+    "not_exact",
+    "stopped",
+)
+"""Explained in benchmarks/README.md."""
+
+Floats = NDArray[np.float64]
+
+
+def main() -> None:
+    """Measure what the arguments say."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    parser.add_argument("--scenes", nargs="+", choices=SCENES, default=list(SCENES))
+    parser.add_argument("--simulators", nargs="+", choices=SIMULATORS, default=list(SIMULATORS))
+    results.add_output(parser)
+    arguments = parser.parse_args()
+    chosen = [SIMULATORS[name] for name in arguments.simulators]
+    ready = [simulator for simulator in chosen if not simulator.missing()]
+    for simulator in ready:
+        simulator.prepare()
+    base = results.path_in(arguments.output)
+    path = base.with_name(base.name + "-hard-scenes.csv")
+    table = Table(
+        "scene", "", "fallen", "drift, m", "overlap, m", "us a step", "worst, ms", "not exact"
+    )
+    lines: list[dict[str, object]] = []
+    for name in arguments.scenes:
+        for line in measure(name, ready):
+            lines.append(line)
+            table.add_row(*(str(line[column]) for column in _SHOWN))
+        results.write_lines(path, COLUMNS, lines)
+    console = Console()
+    console.width = max(console.width, 110)
+    console.print(table)
+    for simulator in set(chosen) - set(ready):
+        console.print(f"{simulator.name}: {simulator.missing()}")
+    console.print(f"wrote {path}", soft_wrap=True)
+
+
+_SHOWN = (
+    "scene",
+    "simulator",
+    "fallen",
+    "drift",
+    "penetration",
+    "microseconds",
+    "worst_ms",
+    "not_exact",
+)
+
+
+def measure(name: str, simulators: list[Simulator]) -> Iterator[dict[str, object]]:
+    """A line for each simulator."""
+    hard = SCENES[name]()
+    steps = round(hard.seconds * RATE)
+    common = results.where(os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan) | {
+        "scene": name,
+        "blocks": sum(not body.fixed for body in hard.scene.bodies),
+        "friction": f"{hard.scene.friction:g}",
+        "dt": f"1/{RATE}",
+        "steps": steps,
+        "should": "fall" if hard.falls else "stand",
+    }
+    for simulator in simulators:
+        ours = isinstance(simulator, Drystone)
+        why = LEFT_OUT.get((name, simulator.name), "")
+        if why:
+            blank = dict.fromkeys(COLUMNS, "")
+            yield blank | common | {"simulator": simulator.name, "stopped": why}
+            continue
+        scene = hard.scene.parted() if ours else hard.scene
+        motion = simulator.run(scene, 1 / RATE, steps, steps // LOOKS, hard.velocities)
+        for _ in range(0 if motion.seconds > LONG else ROUNDS - 1):
+            again = simulator.run(scene, 1 / RATE, steps, steps // LOOKS, hard.velocities)
+            motion = min(motion, again, key=lambda motion: motion.seconds)
+        frames = motion.frames
+        late = frames[-1 - LOOKS // 4 :, :, :2]
+        yield common | {
+            "simulator": simulator.name,
+            "simulator_version": simulator.version(),
+            "fallen": fallen(hard, frames[-1]),
+            "drift": results.number(float(np.linalg.norm(late - late[0], axis=-1).max()), 2),
+            "penetration": results.number(deepest(hard.scene, frames[len(frames) // 2 :]), 2),
+            "microseconds": results.number(1e6 * motion.seconds / steps, 3),
+            "worst_ms": results.number(1e3 * motion.worst, 3),
+            "not_exact": motion.not_exact if ours else "",
+            "stopped": motion.stopped,
+        }
+
+
+def fallen(hard: HardScene, frame: Floats) -> int:
+    """Bodies that are lower than they should be, or turned."""
+    count = 0
+    for body, place in zip(hard.scene.bodies, frame, strict=True):
+        height = hard.heights.get(body.name, body.center_of_mass[1])
+        longest = np.linalg.norm(np.diff(body.vertices, axis=0), axis=1).max()
+        upright = place[1] > height - FALLEN * longest and abs(place[2] - body.angle) < TURNED
+        count += not (body.fixed or upright)
+    return count
+
+
+def deepest(scene: ds.Scene, frames: Floats) -> float:
+    """The deepest overlap, metres: zero where none is deeper than the contact tolerance."""
+    depth = 0.0
+    for frame in frames:
+        now = ds.Scene(gravity=scene.gravity, friction=scene.friction)
+        # From the middle, so that overlaps far from the origin are seen too.
+        middle = frame[0, :2]
+        for body, place in zip(scene.bodies, frame, strict=True):
+            turn = place[2] - body.angle
+            cos, sin = math.cos(turn), math.sin(turn)
+            arms = (body.vertices - body.center_of_mass) @ np.array([[cos, sin], [-sin, cos]])
+            now.add_polygon(arms + (place[:2] - middle), name=body.name, fixed=body.fixed)
+        depth = max([depth, *(overlap.depth for overlap in now.overlaps)])
+    return depth
+
+
+if __name__ == "__main__":
+    main()
