@@ -129,10 +129,7 @@ def _mesh(block: dict[str, Any], key: str) -> tuple[Any, Any, list[str]]:
     """Vertices (k, 3), triangles (n, 3), and what was done to the faces."""
     points = entries(block.get("vertex"), f"block {key} has no vertices")
     numbers = {str(vertex): number for number, vertex in enumerate(points)}
-    vertices = [
-        [finite(point.get(axis, 0.0), f"block {key}: vertex {vertex}") for axis in "xyz"]
-        for vertex, point in points.items()
-    ]
+    vertices = [_point(point, f"block {key}: vertex {vertex}") for vertex, point in points.items()]
     triangles: list[list[int]] = []
     warped, farthest = 0, 0.0
     for face, corners in entries(block.get("face"), f"block {key} has no faces").items():
@@ -142,7 +139,7 @@ def _mesh(block: dict[str, Any], key: str) -> tuple[Any, Any, list[str]]:
             raise FormatError(
                 f"block {key}: face {face} uses vertices that are not there"
             ) from None
-        off = _off_plane(np.array([vertices[corner] for corner in ring]).reshape(-1, 3))
+        off = _off_plane([vertices[corner] for corner in ring])
         if not off:
             triangles += [[ring[0], *pair] for pair in pairwise(ring[1:])]
             continue
@@ -161,14 +158,30 @@ def _mesh(block: dict[str, Any], key: str) -> tuple[Any, Any, list[str]]:
     return np.array(vertices, dtype=float), triangles_of, said
 
 
-def _off_plane(corners: NDArray[np.float64]) -> float:
+def _point(point: dict[str, Any], what: str) -> list[float]:
+    return [finite(point.get(axis, 0.0), what) for axis in "xyz"]
+
+
+def _off_plane(ring: list[list[float]]) -> float:
     """How far corners are from their plane; 0 if that is rounding."""
-    if len(corners) < 4 or not np.isfinite(corners).all():
+    if len(ring) < 4 or (len(ring) == 4 and _diagonals_meet(*ring)):
         return 0.0
+    corners = np.array(ring)
     arms = corners - corners.mean(axis=0)
     normal = np.linalg.svd(arms)[2][2]
     off = float(abs(arms @ normal).max())
     return off if off > PLANE * float(np.ptp(corners, axis=0).max()) else 0.0
+
+
+def _diagonals_meet(a: list[float], b: list[float], c: list[float], d: list[float]) -> bool:
+    """Whether the diagonals of a quadrilateral are in one plane, by far less than rounding is."""
+    u, v, w = c[0] - a[0], c[1] - a[1], c[2] - a[2]
+    x, y, z = d[0] - b[0], d[1] - b[1], d[2] - b[2]
+    normal = v * z - w * y, w * x - u * z, u * y - v * x
+    apart = sum(n * (q - p) for n, p, q in zip(normal, a, b, strict=True))
+    extent = max(abs(u), abs(v), abs(w), abs(x), abs(y), abs(z))
+    # |apart| / |normal| is their distance, and each corner is half of it off.
+    return apart * apart <= (0.1 * PLANE * extent) ** 2 * sum(n * n for n in normal)
 
 
 def _interfaces(graph: dict[str, Any], collected: Collected) -> None:

@@ -16,6 +16,14 @@ DEEPEST = 50
 """Objects inside objects."""
 
 
+PLAIN = frozenset({float, int, str, bool, type(None)})
+"""What is written as it is."""
+
+
+EDGES = "edge"
+"""Where a graph keeps them. Interfaces lie on them, many points and frames, which are not read."""
+
+
 def is_live(value: Any) -> bool:
     """Whether a value is a COMPAS object: compas itself need not be there."""
     return hasattr(value, "__data__") and hasattr(value, "__dtype__")
@@ -23,17 +31,32 @@ def is_live(value: Any) -> bool:
 
 def data_of(value: Any, depth: int = 0) -> Any:
     """A COMPAS object as `compas.json_dump` writes it, without writing it."""
+    if type(value) in PLAIN:  # most are
+        return value
     if depth > DEEPEST:
         raise FormatError(f"its data are more than {DEEPEST} objects deep")
     if is_live(value):
         return {"dtype": value.__dtype__, "data": data_of(value.__data__, depth + 1)}
     if isinstance(value, dict):
-        return {str(key): data_of(item, depth + 1) for key, item in value.items()}
+        return {
+            str(key): _ends_of(item) if key == EDGES else data_of(item, depth + 1)
+            for key, item in value.items()
+        }
     if isinstance(value, (list, tuple, set)):
         return [data_of(item, depth + 1) for item in value]
     if isinstance(value, np.ndarray):
         return value.tolist()
     return value.item() if isinstance(value, np.generic) else value
+
+
+def _ends_of(edges: Any) -> Any:
+    """Which edges there are, without the interfaces on them."""
+    if not isinstance(edges, dict):
+        return data_of(edges)
+    return {
+        str(one): dict.fromkeys(map(str, others)) if isinstance(others, dict) else data_of(others)
+        for one, others in edges.items()
+    }
 
 
 def inner(value: Any) -> dict[str, Any]:

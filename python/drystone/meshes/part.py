@@ -12,9 +12,10 @@ from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
 from drystone.meshes.hull import deepest, hull_corners, hull_triangles, hull_volume
 from drystone.meshes.objects import Split, read_split
+from drystone.meshes.plain import plain_volume
 from drystone.meshes.planes import at_least_planes
 from drystone.meshes.reading import Triangles, read_triangles
-from drystone.meshes.rounding import Exactness, assumed, evened, shown
+from drystone.meshes.rounding import Exactness, assumed, check_tolerance, evened, shown
 from drystone.meshes.simplify import Simplification, simplified
 from drystone.meshes.surface import Surface, repaired
 
@@ -195,11 +196,16 @@ def part_from(
     else:
         if np.prod(factors) < 0:
             triangles = triangles[:, ::-1]
-        # Numbers are as exact as they were before they were scaled.
-        exact = assumed(read.vertices, float(abs(factors).max()), tolerance)
-        part = part_of(
-            name, vertices, triangles, read.repeats, max_pieces, simplify, exact, surface
-        )
+        check_tolerance(tolerance)
+        plain = None if surface or simplify is not None else plain_volume(vertices, triangles)
+        if plain is not None:
+            part = Part(name, [vertices], plain)
+        else:
+            # Numbers are as exact as they were before they were scaled.
+            exact = assumed(read.vertices, float(abs(factors).max()), tolerance)
+            part = part_of(
+                name, vertices, triangles, read.repeats, max_pieces, simplify, exact, surface
+            )
     if said is not None:
         part.messages.append(said)
     return part

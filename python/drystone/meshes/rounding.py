@@ -46,6 +46,12 @@ class Exactness:
 EXACT = Exactness(0.0, "")
 
 
+def check_tolerance(tolerance: float | None) -> None:
+    """MeshError for what is no length."""
+    if tolerance is not None and not 0 <= tolerance < np.inf:
+        raise MeshError(f"its tolerance must be a length in metres, not {tolerance!r}")
+
+
 def assumed(
     vertices: NDArray[np.float64], scale: float = 1.0, tolerance: float | None = None
 ) -> Exactness:
@@ -54,8 +60,7 @@ def assumed(
     They may have few decimals, or be of single precision, as STL and glTF keep them. A `tolerance`
     after scaling is taken if it is larger; 0 says that they are exact.
     """
-    if tolerance is not None and not 0 <= tolerance < np.inf:
-        raise MeshError(f"its tolerance must be a length in metres, not {tolerance!r}")
+    check_tolerance(tolerance)
     numbers = np.unique(np.abs(vertices))
     largest = float(numbers[-1]) if len(numbers) else 0.0
     if tolerance == 0 or not 0 < largest < np.inf:
