@@ -178,17 +178,36 @@ fn start_at_least(face: &mut [usize]) {
     face.rotate_left(least);
 }
 
+/// A numbered point in the plane.
+type Numbered = (usize, [f64; 2]);
+
 /// The corners of the convex hull of numbered points in the plane, counter-clockwise; points within `tolerance` of a straight
 /// line between others are no corners. Andrew's monotone chain.
-pub(crate) fn convex_outline(mut points: Vec<(usize, [f64; 2])>, tolerance: f64) -> Vec<usize> {
+pub(crate) fn convex_outline(mut points: Vec<Numbered>, tolerance: f64) -> Vec<usize> {
+    sort(&mut points);
+    if points.len() > 2 && begins_within_a_side(&points, tolerance) {
+        upright(&mut points, tolerance);
+    }
+    let mut outline = outline_of_sorted(&points, tolerance);
+    if loses_a_corner(&outline, &points, tolerance) {
+        upright(&mut points, tolerance);
+        outline = outline_of_sorted(&points, tolerance);
+    }
+    outline.into_iter().map(|(k, _)| k).collect()
+}
+
+fn sort(points: &mut [Numbered]) {
     points.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+}
+
+fn outline_of_sorted(points: &[Numbered], tolerance: f64) -> Vec<Numbered> {
     let straight = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
         let (ux, uy) = (c[0] - a[0], c[1] - a[1]);
         let turn = (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
         turn <= tolerance * ux.hypot(uy)
     };
-    let chain = |points: &mut dyn Iterator<Item = (usize, [f64; 2])>| {
-        let mut kept: Vec<(usize, [f64; 2])> = Vec::new();
+    let chain = |points: &mut dyn Iterator<Item = Numbered>| {
+        let mut kept: Vec<Numbered> = Vec::new();
         for point in points {
             while let [.., a, b] = kept[..]
                 && straight(a.1, b.1, point.1)
@@ -201,9 +220,69 @@ pub(crate) fn convex_outline(mut points: Vec<(usize, [f64; 2])>, tolerance: f64)
         kept
     };
     if points.len() < 3 {
-        return points.into_iter().map(|(k, _)| k).collect();
+        return points.to_vec();
     }
-    let lower = chain(&mut points.iter().copied());
-    let upper = chain(&mut points.iter().rev().copied());
-    lower.into_iter().chain(upper).map(|(k, _)| k).collect()
+    let mut lower = chain(&mut points.iter().copied());
+    lower.extend(chain(&mut points.iter().rev().copied()));
+    lower
+}
+
+/// Whether the first or the last of sorted points is neither the lowest nor the highest of those as far left or right as it: by
+/// rounding a side that is parallel to the second axis begins in its middle.
+fn begins_within_a_side(points: &[Numbered], tolerance: f64) -> bool {
+    let within = |&(_, [x, y]): &Numbered| {
+        let beside = || points.iter().filter(move |(_, other)| (other[0] - x).abs() <= tolerance);
+        beside().any(|(_, other)| other[1] < y) && beside().any(|(_, other)| other[1] > y)
+    };
+    points.first().is_some_and(within) || points.last().is_some_and(within)
+}
+
+/// Whether one of the leftmost or rightmost of sorted points is outside of their outline: a chain that goes back and forth along a side
+/// parallel to the second axis takes the corner where it turns for a point within the side.
+fn loses_a_corner(outline: &[Numbered], points: &[Numbered], tolerance: f64) -> bool {
+    let ([first, .., last], [.., before]) = (points, outline) else { return false };
+    let outside = |[x, y]: [f64; 2]| {
+        let mut from = before.1;
+        outline.iter().any(|&(_, to)| {
+            let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+            let left = dx * (y - from[1]) - dy * (x - from[0]);
+            from = to;
+            left < -2.0 * tolerance * dx.hypot(dy)
+        })
+    };
+    let beside = |x: f64| (x - first.1[0]).min(last.1[0] - x) <= tolerance;
+    points.iter().any(|&(_, point)| beside(point[0]) && outside(point))
+}
+
+/// Lays points that are as far left as the first or as far right as the last of some sorted ones, within the tolerance, beside it, and
+/// sorts again.
+fn upright(points: &mut [Numbered], tolerance: f64) {
+    let (Some(&(_, [left, _])), Some(&(_, [right, _]))) = (points.first(), points.last()) else { return };
+    for (_, [x, _]) in points.iter_mut() {
+        if *x - left <= tolerance {
+            *x = left;
+        } else if right - *x <= tolerance {
+            *x = right;
+        }
+    }
+    sort(points);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::convex_outline;
+
+    /// A rectangle whose left and right sides have a point in their middle, all of them off by rounding in any order.
+    #[test]
+    fn no_corner_of_an_upright_side_is_lost() {
+        let places = [(0.0, 0.0), (0.0, 0.3), (0.0, 1.0), (2.0, 0.0), (2.0, 0.6), (2.0, 1.0)];
+        for code in 0..729_usize {
+            let off = |k: usize| (code / 3_usize.pow(k as u32) % 3) as f64 * 1e-15;
+            let points = places.iter().enumerate().map(|(k, &(x, y))| (k, [x + off(k), y])).collect();
+            let mut corners = convex_outline(points, 1e-6);
+            let least = corners.iter().position(|&k| k == 0).expect("the first is a corner");
+            corners.rotate_left(least);
+            assert_eq!(corners, [0, 3, 5, 2], "{code}");
+        }
+    }
 }

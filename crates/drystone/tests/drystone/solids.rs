@@ -337,3 +337,39 @@ fn random_hulls_are_closed_and_hold_their_points() {
         }
     }
 }
+
+/// Two cubes one on the other, shifted along an edge, so that sides of the shared face lie on sides: however the pair is turned, the
+/// four corners are found, and nothing else.
+#[test]
+fn sides_on_sides_lose_no_corner() {
+    for k in 0..600 {
+        let share = |factor: f64| (f64::from(k) * factor).fract();
+        let (shift, angle) = (0.1 + 0.8 * share(0.618_033_988_749_895), f64::from(k % 24) * 15.0_f64.to_radians());
+        let axis = match k % 3 {
+            0 => [0.0, 1.0, 0.0],
+            1 => [1.0, 0.0, 0.0],
+            _ => Vector3::new(share(0.754_877_666), share(0.569_840_290), 0.3).normalize().to_array(),
+        };
+        let frame = PoseInSpace { position: [3.0 * share(0.381_966), 0.7, -0.2], orientation: turned(axis, angle) };
+        let cube = |y: f64, z: f64| {
+            let corners = Polyhedron::cuboid([1.0; 3]).vertices().iter().map(|v| [v.x, v.y + y, v.z + z]).collect();
+            vec![corners]
+        };
+        let mut pair = scene(0.5);
+        pair.add_solid(&cube(0.0, 0.0), frame, fixed("below")).unwrap();
+        pair.add_solid(&cube(shift, 1.0), frame, BodyOptions::default()).unwrap();
+        let contacts = find_solid_contacts(&pair).unwrap().contacts;
+        let mut found: Vec<[i64; 2]> = contacts
+            .iter()
+            .map(|contact| {
+                let from = Vector3::from_array(contact.point) - Vector3::from_array(frame.position);
+                let along = |axis: [f64; 3]| (1e6 * frame.rotate(Vector3::from_array(axis)).dot(from)).round() as i64;
+                [along([1.0, 0.0, 0.0]), along([0.0, 1.0, 0.0])]
+            })
+            .collect();
+        found.sort_unstable();
+        let low = (1e6 * (shift - 0.5)).round() as i64;
+        let half = 500_000;
+        assert_eq!(found, [[-half, low], [-half, half], [half, low], [half, half]], "{k}: {shift} {angle}");
+    }
+}
