@@ -188,3 +188,10 @@ def test_every_simulator_throws_a_polygon(key: str) -> None:
     scene.add_polygon([(0, 1), (3, 1), (0, 2.5)], name="triangle")
     motion = simulator.run(scene, 0.001, 50, 25, {"triangle": (1.0, 0.5, 2.0)})
     assert motion.frames[-1][1] == pytest.approx([1.05, 1.525, 0.1, 1, 0.5, 2], rel=1e-6)
+
+
+def test_heaps_that_tumble_leave_no_overlaps() -> None:
+    """Solids that cross have one contact at a time, another after each round of taking back."""
+    run = ds.simulate(heaps.heap(54), heaps.DT, 360)
+    assert run.penetration.max() < 1e-6
+    assert run.projections.max() < 10

@@ -22,7 +22,10 @@ use crate::{
     scene::SceneOf,
     simulate::{
         contacts::find,
-        formulate::{contact_problem::wrench, free_motion::free_velocities},
+        formulate::{
+            contact_problem::{relative_velocity, wrench},
+            free_motion::free_velocities,
+        },
         kinematics::{Kinematics, components, is_zero, masses, permanent, split},
         state::State,
     },
@@ -31,6 +34,9 @@ use drystone_lcp::{Counts, Problem, Settings, Solver, Status, cone::Columns};
 
 /// Times the problem is linearised anew. Each leaves a square of what the last one moved, so two are the rule.
 const ROUNDS: usize = 10;
+
+/// Normals of one pair that look the same way: cosine of the angle between them at least.
+const ALIKE: f64 = 0.7;
 
 /// Share of its own entry of the matrix by which each contact gives way where bodies are jammed.
 const COMPLIANCE: f64 = 1e-3;
@@ -45,25 +51,51 @@ pub struct Projected {
 /// Takes overlaps back until none is deeper than the contact tolerance, or nothing helps. Finds the contacts of the next step.
 pub fn project<S: Kinematics>(state: &mut State<S>, finder: &mut CandidateFinder<S>) -> Projected {
     let mut projected = Projected::default();
+    let mut earlier: Vec<CandidateOf<S>> = Vec::new();
     loop {
         find(finder, state, &free_velocities(state));
-        let deep = |([a, b], depth): ([usize; 2], f64)| {
-            let bodies = state.scene.bodies();
-            let held = state.motionless[a] && state.motionless[b];
-            !held && depth > pair_tolerance(&state.scene, &bodies[a], &bodies[b])
-        };
-        if projected.rounds == ROUNDS || !finder.overlaps().any(deep) {
+        let deep = deep_pairs(state, finder);
+        if projected.rounds == ROUNDS || deep.is_empty() {
             return projected;
         }
         let held = |(mass, still): (&S::Velocity, &bool)| if *still { S::Velocity::default() } else { *mass };
         let inverse_mass: Vec<_> = state.inverse_mass.iter().zip(&state.motionless).map(held).collect();
         let free = |candidate: &&CandidateOf<S>| candidate.id.bodies.iter().any(|&i| !is_zero(&inverse_mass[i]));
-        let candidates: Vec<&CandidateOf<S>> = finder.candidates().filter(free).collect();
+        let mut candidates: Vec<CandidateOf<S>> = finder.candidates().filter(free).copied().collect();
+        add_earlier::<S>(&mut candidates, earlier);
         let Some(change) = way_out::<S>(&candidates, &inverse_mass, &mut projected.counts) else {
             return projected;
         };
         shift(&mut state.scene, &mut state.velocities, &change);
+        candidates.retain(|candidate| deep.binary_search(&candidate.id.bodies).is_ok());
+        for candidate in &mut candidates {
+            candidate.gap += product(&candidate.normal, &relative_velocity::<S>(candidate, &change));
+        }
+        earlier = candidates;
         projected.rounds += 1;
+    }
+}
+
+/// Pairs that are deeper in one another than their contact tolerance, unless both are held; in order.
+fn deep_pairs<S: Kinematics>(state: &State<S>, finder: &CandidateFinder<S>) -> Vec<[usize; 2]> {
+    let bodies = state.scene.bodies();
+    let deep = |&([a, b], depth): &([usize; 2], f64)| {
+        let held = state.motionless[a] && state.motionless[b];
+        !held && depth > pair_tolerance(&state.scene, &bodies[a], &bodies[b])
+    };
+    finder.overlaps().filter(deep).map(|(pair, _)| pair).collect()
+}
+
+/// Adds the contacts of earlier rounds that their pair does not have any more, where they look the same way as those it has. Of solids that cross
+/// there is one where they do so most; taken back alone it only makes another deeper, and so on in turns.
+fn add_earlier<S: Kinematics>(candidates: &mut Vec<CandidateOf<S>>, earlier: Vec<CandidateOf<S>>) {
+    let now = candidates.len();
+    for old in earlier {
+        let mut own = candidates[..now].iter().filter(|candidate| candidate.id.bodies == old.id.bodies).peekable();
+        let looks_alike = |candidate: &CandidateOf<S>| product(&candidate.normal, &old.normal) > ALIKE;
+        if own.peek().is_some() && own.all(|candidate| candidate.id != old.id && looks_alike(candidate)) {
+            candidates.push(old);
+        }
     }
 }
 
@@ -71,7 +103,7 @@ pub fn project<S: Kinematics>(state: &mut State<S>, finder: &mut CandidateFinder
 /// held. Where bodies are jammed between others there may be no such motion; each contact then gives way a little, which
 /// leaves a share of the overlap. Returns the change of every place.
 fn way_out<S: Kinematics>(
-    candidates: &[&CandidateOf<S>],
+    candidates: &[CandidateOf<S>],
     inverse_mass: &[S::Velocity],
     counts: &mut Counts,
 ) -> Option<Vec<S::Velocity>> {
@@ -79,7 +111,7 @@ fn way_out<S: Kinematics>(
 }
 
 fn part<S: Kinematics>(
-    candidates: &[&CandidateOf<S>],
+    candidates: &[CandidateOf<S>],
     inverse_mass: &[S::Velocity],
     compliance: f64,
     counts: &mut Counts,
