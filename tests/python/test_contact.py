@@ -186,3 +186,14 @@ def test_nothing_to_solve() -> None:
 def test_bad_input(change: dict[str, Any], message: str) -> None:
     with pytest.raises(ds.ContactError, match=message):
         contact.solve(**(block(0.3) | {"dimension": 3} | change))
+
+
+def test_rows_without_zeros_do_not_take_all_memory() -> None:
+    """Newton's matrix of so many would take many gigabytes; without it there are sweeps."""
+    random = np.random.default_rng(5)
+    contacts, unknowns = 1000, 1200
+    J = random.normal(size=(2 * contacts, unknowns))
+    found = ds.contact.solve(np.ones(unknowns), J, 0.5, random.normal(size=unknowns), dimension=2)
+    assert found.newton_steps == 0
+    assert found.sweeps > 0
+    assert np.isfinite(found.error)

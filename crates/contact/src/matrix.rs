@@ -9,6 +9,9 @@ use faer::{
     sparse::{SymbolicSparseColMatRef, linalg::amd},
 };
 
+/// Products of blocks in one factor, about: half a gigabyte says where they go.
+const MOST_TARGETS: usize = 1 << 27;
+
 type Block<const B: usize> = [[f64; B]; B];
 
 /// The matrix, then its factors in place.
@@ -32,7 +35,7 @@ pub(crate) struct BlockMatrix<const B: usize> {
 }
 
 impl<const B: usize> BlockMatrix<B> {
-    /// Analyses the pattern: `pairs` of chunks, in either order, repeated or not.
+    /// Analyses the pattern: `pairs` of chunks, in either order, repeated or not. None if the factors would take too much memory.
     pub fn new(chunks: usize, pairs: &[(u32, u32)]) -> Option<Self> {
         let mut edges: Vec<(u32, u32)> = pairs.iter().flat_map(|&(a, b)| [(a, b), (b, a)]).collect();
         edges.sort_unstable();
@@ -60,6 +63,9 @@ impl<const B: usize> BlockMatrix<B> {
         let (mut targets, mut pair_starts) = (Vec::new(), vec![0_u32]);
         for list in &later {
             for (a, &first) in list.iter().enumerate() {
+                if targets.len() > MOST_TARGETS {
+                    return None;
+                }
                 for &second in &list[a + 1..] {
                     let found = later[first as usize].binary_search(&second).ok()?;
                     targets.push(starts[first as usize] + found as u32);

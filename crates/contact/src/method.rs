@@ -16,6 +16,8 @@ use crate::{
 
 /// Sweeps at the beginning.
 const SWEEPS: usize = 6;
+/// The same where Newton's method would take too much memory.
+const SWEEPS_ALONE: usize = 100;
 /// eps at first, at most and at least; and by how much it falls after a solve of few steps, or grows after one that failed. What was
 /// measured: docs/theory/step-solver.md.
 const FIRST: f64 = 0.1;
@@ -57,12 +59,16 @@ pub(crate) fn solve<const B: usize, const D: usize>(
     if best.error <= active_set::UNSEEN * goal.tolerance {
         return best.error;
     }
-    let Some(mut newton) = Newton::new(system) else { return best.error };
+    let Some(mut newton) = Newton::new(system) else {
+        sweeps(system, state, &mut best, (goal.tolerance, SWEEPS_ALONE), counts);
+        state.clone_from(&best.state);
+        return best.error;
+    };
     if state.p.iter().any(|p| p[0] > 0.0) {
         counts.newton_steps += active_set::solve(system, &mut newton, &mut best, goal, FROM_START[D - 2]);
     }
     if best.error > goal.tolerance {
-        sweeps(system, state, &mut best, goal.tolerance, counts);
+        sweeps(system, state, &mut best, (goal.tolerance, SWEEPS), counts);
     } else {
         state.clone_from(&best.state);
     }
@@ -78,10 +84,10 @@ fn sweeps<const B: usize, const D: usize>(
     system: &System<B, D>,
     state: &mut State<B, D>,
     best: &mut Best<B, D>,
-    tolerance: f64,
+    (tolerance, most): (f64, usize),
     counts: &mut Counts,
 ) {
-    for round in 0..SWEEPS {
+    for round in 0..most {
         counts.sweeps += 1;
         counts.local_solves += system.len();
         if sweep(system, state, round % 2 == 1) <= active_set::UNSEEN * tolerance {

@@ -19,6 +19,9 @@ use crate::{
 };
 use drystone_lcp::interrupt::poll;
 
+/// Pairs of sides, of all contacts, that a matrix is made for: .4 GB. Contacts of two bodies have one each; where rows of J are full more are
+/// swept only, as their matrix would be too.
+const MOST_PAIRS: usize = 1 << 24;
 /// Most steps of a solve.
 const MOST: usize = 15;
 /// The shortest length that is tried. It is taken whatever comes of it.
@@ -47,8 +50,12 @@ pub(crate) struct Newton<const B: usize, const D: usize> {
 }
 
 impl<const B: usize, const D: usize> Newton<B, D> {
-    /// None if there is no memory for it.
+    /// None if it would take too much memory.
     pub fn new(system: &System<B, D>) -> Option<Self> {
+        let count = |sides: std::ops::Range<usize>| sides.len() * sides.len().saturating_sub(1) / 2;
+        if (0..system.len()).map(|k| count(system.sides(k))).sum::<usize>() > MOST_PAIRS {
+            return None;
+        }
         let mut pairs = Vec::with_capacity(system.len());
         for k in 0..system.len() {
             for a in system.sides(k) {
