@@ -256,8 +256,8 @@ def test_compas_finds_the_plug_in() -> None:
     [
         (lambda p: p.set_contact_model("MohrCoulomb", mu=0.5, c=10.0), "cohesion 10"),
         (
-            lambda p: p.boundary_conditions[0].add_displacement(0, dz=-0.1),
-            "prescribed displacement",
+            lambda p: p.boundary_conditions[0].add_displacement(1, dz=-0.1),
+            "no support",
         ),
         (lambda p: p.boundary_conditions[0].add_point_load(7, [0, 0, 1]), "block 7"),
         (lambda p: p.boundary_conditions[0].add_surface_load(1, 99, [0, 0, 1]), "no face 99"),
@@ -269,6 +269,32 @@ def test_what_drystone_does_not_have_is_said(change: Callable[[Problem], None], 
     change(problem)
     with pytest.raises(ValueError, match=said):
         solved(problem)
+
+
+def _points(block: Any) -> list[Any]:
+    return [block.modelgeometry.vertex_coordinates(v) for v in block.modelgeometry.vertices()]
+
+
+def test_supports_are_displaced() -> None:
+    model = arch()
+    problem = problem_of(model)
+    spread = problem.add_boundary_condition("Spread")
+    first, last = (np.mean(_points(model.graph.node_element(node)), axis=0) for node in (0, 29))
+    outwards = 0.02 if last[0] > first[0] else -0.02
+    spread.add_displacement(29, dx=outwards)
+    before = solved(problem_of(arch()))
+    results = solved(problem)
+    assert results.metadata["settled"] == "solved"
+    assert len(results.metadata["hinges"]) == 3
+    x, y, z = results.displacement(29)
+    assert (x, y, z) == pytest.approx((outwards, 0.0, 0.0), abs=1e-12)
+    assert min(results.displacement(block.graphnode)[2] for block in model.elements()) < -0.005
+    thrust = [abs(r.resultant_global((28, 29))[0]) for r in (before, results)]
+    assert thrust[1] < thrust[0]
+    spread.add_rotation(29, [0.0, 0.001, 0.0])
+    assert solved(problem).metadata["settled"] == "solved"
+    with pytest.raises(ValueError, match="only loads can grow"):
+        solved(problem, live="Spread")
 
 
 def test_wrong_names_are_said() -> None:

@@ -1,4 +1,4 @@
-"""Boundary conditions of a problem: the forces and accelerations in them."""
+"""Boundary conditions of a problem: the forces, accelerations and displacements in them."""
 
 from __future__ import annotations
 
@@ -26,6 +26,15 @@ class Acting:
     at: NDArray[np.float64] | None
     """Where, metres; None for the centre of mass."""
     moment: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Displaced:
+    """A displacement of a support, m, and its turn about the centroid, rad, world axes."""
+
+    block: int
+    translation: NDArray[np.float64]
+    rotation: NDArray[np.float64]
 
 
 def split(
@@ -60,7 +69,6 @@ def acting(model: BlockModel, groups: Iterable[BoundaryConditionGroup]) -> Itera
     """Point and surface loads. Those on supports are left out: nothing follows from them."""
     blocks = {block.graphnode: block for block in model.elements()}
     for group in groups:
-        _no_displacements(group)
         for load in group.point_loads:
             block = _block(blocks, load.block_index, "a point load")
             at = None if load.point is None else np.array(list(load.point), dtype=float)
@@ -88,11 +96,27 @@ def _three(value: Iterable[float] | None) -> NDArray[np.float64]:
     return np.zeros(3) if value is None else np.array(list(value), dtype=float)
 
 
-def _no_displacements(group: BoundaryConditionGroup) -> None:
-    for entry in group.displacements:
-        moved = getattr(entry, "translation", None) or getattr(entry, "rotation", None) or ()
-        if any(moved):
-            raise ValueError(
-                f"block {entry.block_index} has a prescribed displacement in boundary condition "
-                f"{group.name!r}: drystone has none; take LMGC90, 3DEC, PRD or BLA for it"
-            )
+def _parts(entry: Any, what: str) -> list[float]:
+    """Of a displacement, which is a translation or a rotation; free parts are zero."""
+    return [part or 0.0 for part in getattr(entry, what, None) or (0.0,) * 3]
+
+
+def displaced(
+    model: BlockModel, groups: Iterable[BoundaryConditionGroup], held: Iterable[int] = ()
+) -> Iterator[Displaced]:
+    """Prescribed displacements of supports, and of blocks that are `held`. Of a translation what is
+    left free stays where it is."""
+    blocks = {block.graphnode: block for block in model.elements()}
+    fixed = set(held)
+    for group in groups:
+        for entry in group.displacements:
+            block = _block(blocks, entry.block_index, "a displacement")
+            moved, turned = (_three(_parts(entry, what)) for what in ("translation", "rotation"))
+            if not (moved.any() or turned.any()):
+                continue
+            if not (block.is_support or entry.block_index in fixed):
+                raise ValueError(
+                    f"block {entry.block_index} has a prescribed displacement in boundary "
+                    f"condition {group.name!r}, but is no support: drystone displaces supports only"
+                )
+            yield Displaced(entry.block_index, moved, turned)

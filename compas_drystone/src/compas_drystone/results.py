@@ -29,15 +29,18 @@ def results_of(
     scene: ds.Scene,
     forces: ds.ContactForces | None,
     motion: Mapping[str, ArrayLike],
+    *,
+    to_scale: bool = False,
 ) -> Results:
     """Contact forces and the beginning of a motion, as compas_dem has them.
 
     Each two blocks that touch are an edge (u, v), turned as in the model's graph; its resultant is
     the force of u on v. `motion` is (6,) for each block that moves: along x, y and z, and turning
-    about them, in any unit. The transformation of a block is the identity if it does not move.
+    about them, in any unit; with `to_scale` metres and radians. The transformation of a block is
+    the identity if it does not move.
     """
     results = Results(model_id=str(model.guid), problem_id=str(problem.guid))
-    _move(results, model, scene, motion)
+    _move(results, model, scene, motion, to_scale)
 
     def edge_of(a: int, b: int) -> tuple[int, int]:
         if model.graph.has_edge((a, b)):
@@ -85,7 +88,11 @@ def _shape(points: list[cg.Point]) -> cg.Polygon | cg.Line:
 
 
 def _move(
-    results: Results, model: BlockModel, scene: ds.Scene, motion: Mapping[str, ArrayLike]
+    results: Results,
+    model: BlockModel,
+    scene: ds.Scene,
+    motion: Mapping[str, ArrayLike],
+    to_scale: bool,
 ) -> None:
     blocks = list(model.elements())
     corners = {str(block.graphnode): _corners(block) for block in blocks}
@@ -96,7 +103,7 @@ def _move(
         turning = np.linalg.norm(values[3:]) * reach
         fastest = max(fastest, float(np.linalg.norm(values[:3])), float(turning))
     diagonal = float(np.linalg.norm(np.ptp(np.concatenate(list(corners.values())), axis=0)))
-    step = SHOWN * diagonal / fastest if fastest > 0 else 0.0
+    step = 1.0 if to_scale else SHOWN * diagonal / fastest if fastest > 0 else 0.0
     for block in blocks:
         name, placed = str(block.graphnode), cg.Transformation()
         if name in moving:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 import drystone as ds
-from compas_drystone.conditions import accelerations, acting, gravity, split
+from compas_drystone.conditions import accelerations, acting, displaced, gravity, split
 from drystone.imports import load
 
 if TYPE_CHECKING:
@@ -28,6 +28,9 @@ def scene_of(
 ) -> ds.Scene:
     """The scene of a problem: its blocks, named by their graph nodes, and what acts on them.
 
+    Prescribed displacements of supports are settlements of the scene (`ds.Scene.add_settlement`):
+    small, translations in metres, rotations in radians about the centroid.
+
     `model` is that of the problem unless given. Blocks in `held` are supports besides those of the
     model. The loads of the boundary condition called `live` are left out. `mu`
     is the friction coefficient (that of the contact model unless given), `density` (kg/m^3) that of
@@ -36,12 +39,14 @@ def scene_of(
     Body forces are accelerations, and added to gravity. Contacts are found by drystone: those of
     `model.compute_contacts` are not needed.
 
-    Raises ValueError for what drystone does not have: cohesion, tension, prescribed displacements;
-    or what is missing: friction, densities. Raises drystone.DrystoneError for blocks that make no
-    scene, such as ones that overlap.
+    Raises ValueError for what drystone does not have: cohesion, tension, prescribed displacements
+    of blocks that are no supports; or what is missing: friction, densities. Raises
+    drystone.DrystoneError for blocks that make no scene, such as ones that overlap.
     """
     model = problem.model if model is None else model
-    permanent, _ = split(problem, live)
+    permanent, growing = split(problem, live)
+    if growing is not None and any(displaced(model, [growing], held)):
+        raise ValueError(f"boundary condition {live!r} has displacements: only loads can grow")
     nodes = {block.graphnode for block in model.elements()}
     unknown = sorted(set(held) - nodes)
     if unknown:
@@ -62,6 +67,9 @@ def scene_of(
         if str(one.block) not in fixed:
             at = None if one.at is None else one.at.tolist()
             scene.add_load(str(one.block), one.force.tolist(), at=at, moment=one.moment.tolist())
+    for support in displaced(model, permanent, held):
+        name, moved, turned = str(support.block), support.translation, support.rotation
+        scene.add_settlement(name, moved.tolist(), turned.tolist())
     return scene
 
 

@@ -6,6 +6,7 @@ import functools
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
 from compas_dem.problem import Problem, Results, Solver
 
 import drystone as ds
@@ -13,7 +14,6 @@ from compas_drystone.results import results_of
 from compas_drystone.scene import push_of, scene_of
 
 if TYPE_CHECKING:
-    import numpy as np
     from compas_dem.models import BlockModel
     from numpy.typing import NDArray
 
@@ -77,6 +77,11 @@ def drystone_solve(
     greatest with which it can stand. Forces are those at the limit, and transformations show the
     collapse beyond it.
 
+    Where supports are displaced, results are those after it: contact forces, and transformations of
+    the true size. `metadata["settled"]` is its status ("no_solution" if no rigid blocks can
+    follow), `metadata["hinges"]` the pairs of blocks between which hinges open. A limit does not
+    depend on small displacements.
+
     `blocks` are the graph nodes of the blocks that are there (all unless given; supports always
     are), `held` those that are held in their places, as by hands. `strong=True` also decides
     whether it must stand (`metadata["must_stand"]`). `mu`, `density` and `tolerance` are as in
@@ -99,7 +104,18 @@ def drystone_solve(
         print(verdict)
     falls = verdict.status == "solved" and not verdict.stable
     motion = dict(zip(verdict.names, verdict.accelerations, strict=True)) if falls else {}
-    results = results_of(problem, model, scene, verdict.forces, _moving(motion))
+    settled = verdict.settled
+    if settled is not None and settled.status == "solved":
+        results = results_of(
+            problem, model, scene, settled.forces, _displacements(scene, settled), to_scale=True
+        )
+    else:
+        results = results_of(problem, model, scene, verdict.forces, _moving(motion))
+    if settled is not None:
+        results.metadata.update(
+            settled=settled.status,
+            hinges=[[int(hinge.a), int(hinge.b)] for hinge in settled.hinges],
+        )
     results.metadata.update(
         solver="Drystone",
         mu=scene.friction,
@@ -149,6 +165,16 @@ def _names(scene: ds.Scene, nodes: Iterable[int]) -> list[str]:
         if name not in scene.names:
             raise ValueError(f"blocks: no block {name} in the model")
     return [name for name in names if name in movable]
+
+
+def _displacements(scene: ds.Scene, settled: ds.Settled) -> dict[str, NDArray[np.float64]]:
+    """Of centres of mass, and turns: of the blocks, and of the supports that they follow."""
+    moved = dict(zip(settled.names, settled.displacements, strict=True))
+    for support in scene.settlements:
+        assert isinstance(support.rotation, tuple)
+        row = np.concatenate([support.displacement, support.rotation])
+        moved[support.body] = moved.get(support.body, np.zeros(6)) + row
+    return _moving(moved)
 
 
 def _moving(motion: Mapping[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
