@@ -71,9 +71,11 @@ const PROXIMAL_WITH_LAYERS: [f64; 2] = [1e-8, 1e-6];
 const PROXIMAL_MASS: f64 = 1e-9;
 /// The same between layers, where bodies go 1e5 times as far as these give way, or further where something falls.
 const PROXIMAL_MASS_WITH_LAYERS: f64 = 1e-10;
-/// Refinements of a step, each until what is left is rounding.
+/// Refinements of a step, until what is left is rounding, or this share of the residuals that the step is to take away: the next
+/// step takes that away too.
 const REFINEMENTS: usize = 3;
 const REFINED: f64 = 1e-16;
+const REFINED_BESIDE: f64 = 1e-4;
 
 pub(super) struct Interior<const B: usize, const D: usize, const N: usize> {
     problem: Scaled<B, D, N>,
@@ -420,6 +422,7 @@ impl<const B: usize> Step<B> {
         problem.motion(&self.da, &mut self.moved);
         self.give_way(problem, scaling, false);
         let scale = self.df.iter().fold(1.0_f64, |largest, df| largest.max(df.abs()));
+        let enough = (REFINED * scale).max(REFINED_BESIDE * residuals.worst);
         for _ in 0..refinements {
             for body in 0..self.left.len() {
                 let (balance, da) = (&residuals.balance[body], &self.da[body]);
@@ -432,7 +435,7 @@ impl<const B: usize> Step<B> {
                 true => 0.0,
                 false => residuals.power - product(&problem.push, &self.da),
             };
-            if largest(&self.left).max(lacking.abs()) <= REFINED * scale {
+            if largest(&self.left).max(lacking.abs()) <= enough {
                 break;
             }
             matrix.solve(&mut self.left);
