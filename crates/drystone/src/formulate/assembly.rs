@@ -13,7 +13,7 @@ use crate::{
     contact::{Contact, ContactSet},
     error::SceneError,
     geometry::{dot, length},
-    interrupt::poll,
+    interrupt::Tally,
     scene::SceneOf,
     suggest::nearest,
 };
@@ -145,8 +145,9 @@ impl Assembly {
             block_of[body] = Some(block);
         }
         self.axis_of = vec![None; self.contacts.contacts.len()];
+        let mut tally = Tally::default();
         for (index, contact) in self.contacts.contacts.iter().enumerate() {
-            poll(GENERATOR);
+            tally.count(GENERATOR);
             let blocks = contact.bodies.map(|body| block_of[body]);
             let directions = self.directions(contact).into_iter();
             self.generators.extend(directions.map(|direction| Generator::new(index, blocks, direction)));
@@ -422,8 +423,9 @@ impl Assembly {
         let (mut indptr, mut indices) = (Vec::with_capacity(count + 1), Vec::with_capacity(entries));
         let mut data = Vec::with_capacity(entries);
         indptr.push(0);
+        let mut tally = Tally::default();
         for generator in generators {
-            poll(GENERATOR);
+            tally.count(GENERATOR);
             for wrench in self.wrenches(generator) {
                 let first = self.components.len() * wrench.block;
                 let entries = self.components.iter().map(|&k| wrench.value[k]).enumerate();

@@ -1,6 +1,9 @@
 //! Generators as sparse columns, with the columns of every row.
 
-use crate::{error::LcpError, interrupt::poll};
+use crate::{
+    error::LcpError,
+    interrupt::{Tally, poll},
+};
 use serde::{Deserialize, Serialize};
 
 /// A sparse matrix G (rows x n) by columns and by rows.
@@ -30,10 +33,10 @@ impl Columns {
             return structure(format!("row index {row} in a matrix with {rows} rows"));
         }
         let column = |j: usize| indptr[j]..indptr[j + 1];
-        let mut ascending = true;
+        let (mut ascending, mut tally) = (true, Tally::default());
         for j in 0..indptr.len() - 1 {
             let (rows, values) = (&indices[column(j)], &data[column(j)]);
-            poll(8 * rows.len());
+            tally.count(8 * rows.len());
             if let Some(place) = values.iter().position(|value| !value.is_finite()) {
                 return Err(LcpError::MatrixNotFinite { row: rows[place], column: j, value: values[place] });
             }
@@ -130,10 +133,10 @@ impl Columns {
     /// Multiplies row r by `row_scale[r]`, then every column so that its largest entry is one. Returns the column
     /// scales.
     pub(super) fn scale(&mut self, row_scale: &[f64]) -> Vec<f64> {
-        let mut column_scale = Vec::with_capacity(self.len());
+        let (mut column_scale, mut tally) = (Vec::with_capacity(self.len()), Tally::default());
         for j in 0..self.len() {
             let column = &mut self.entries[self.starts[j]..self.starts[j + 1]];
-            poll(8 * column.len());
+            tally.count(8 * column.len());
             column.iter_mut().for_each(|(row, value)| *value *= row_scale[*row as usize]);
             let largest = column.iter().fold(0.0_f64, |largest, (_, value)| largest.max(value.abs()));
             let scale = if largest > 0.0 { largest.recip() } else { 1.0 };
