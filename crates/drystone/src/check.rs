@@ -11,8 +11,8 @@ use crate::{
     error::SceneError,
     formulate::{Acceleration, Assemble, Assembly, BlockSet, ContactForce, FrictionCone, Moving},
     judgement::{CLOSING_AS_SOLVED, Judgement, judge, moving_blocks, proves_fall},
+    ladder::{FEW_ROWS, Ladder},
     scene::SceneOf,
-    takedown::Stack,
 };
 use drystone_lcp::{
     Counts, Settings, Solver, Status,
@@ -112,15 +112,12 @@ pub fn check_blocks(assembly: &Assembly, blocks: &BlockSet) -> Verdict {
     check_blocks_while(assembly, blocks, FrictionCone::Pyramid, &mut |_| true).expect("nobody stops it")
 }
 
-/// Most rows for which the complementarity problem tells the accelerations of what falls sooner than the interior-point method.
-const FEW: usize = 200;
-
-/// The same where blocks differ so widely that accelerations are refined to more than 64 bits, which takes a basis: the pivots
-/// for as many rows take a second or two.
+/// Most rows for which the complementarity problem tells the accelerations of what falls, where blocks differ so widely that accelerations are
+/// refined to more than 64 bits, which takes a basis: the pivots for as many rows take a second or two.
 const FEW_IF_WIDE: usize = 2_000;
 
 fn few(assembly: &Assembly) -> usize {
-    if assembly.is_wide() { FEW_IF_WIDE } else { FEW }
+    if assembly.is_wide() { FEW_IF_WIDE } else { FEW_ROWS }
 }
 
 /// [`check_blocks`] with friction cones of choice, unless it is stopped; None then.
@@ -130,9 +127,14 @@ pub fn check_blocks_while(
     cone: FrictionCone,
     go_on: &mut GoOn<'_>,
 ) -> Option<Verdict> {
-    let large = Stack::is_large(assembly.components().len(), blocks.len());
-    if large && let Some(stands) = takedown::check(assembly, blocks, Counts::default()) {
+    let ladder = Ladder::of(assembly, blocks.len());
+    if ladder.takedown_first()
+        && let Some(stands) = takedown::check(assembly, blocks, Counts::default())
+    {
         return Some(stands);
+    }
+    if !ladder.pivots_next() {
+        return interior::check(assembly, blocks, cone, Counts::default(), go_on);
     }
     let (found, equilibrium) = equilibrium_while(assembly, blocks, Effort::OfUpright, go_on)?;
     let spent = equilibrium.counts();
@@ -140,7 +142,7 @@ pub fn check_blocks_while(
         // What stands within pyramids stands within the round cones around them.
         Membership::Inside => Some(held(assembly, blocks, &equilibrium, spent)),
         Membership::PivotLimit => {
-            let stands = if large { None } else { takedown::check(assembly, blocks, spent) };
+            let stands = if ladder.takedown_first() { None } else { takedown::check(assembly, blocks, spent) };
             stands.or_else(|| interior::check(assembly, blocks, cone, spent, go_on))
         }
         _ if assembly.is_round(cone) => interior::check(assembly, blocks, cone, spent, go_on),

@@ -1,11 +1,11 @@
 //! Contact forces that hold a sub-assembly, looked for from the supports upward, and the motion in which it falls if there are
 //! none.
 
-use crate::formulate::{Assembly, BlockRows, BlockSet, Components};
-use drystone_lcp::{
-    cone::{ConeSolver, Membership},
-    interior::worth_of_pivots,
+use crate::{
+    formulate::{Assembly, BlockRows, BlockSet, Components},
+    ladder::Ladder,
 };
+use drystone_lcp::cone::{ConeSolver, Membership};
 
 /// Asked many times, with the blocks put up so far, whether to go on.
 pub type GoOn<'a> = dyn FnMut(usize) -> bool + 'a;
@@ -20,14 +20,15 @@ pub(crate) fn equilibrium_while(
     let mut equilibrium = assembly.equilibrium();
     let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
     let (mut placed, mut hard) = (0, false);
-    let only_upright = effort == Effort::OfUpright && blocks.len() > SMALL;
+    let ladder = |blocks: usize| Ladder::of(assembly, blocks);
+    let only_upright = effort == Effort::OfUpright && !ladder(blocks.len()).is_small();
     let mut before = |solver: &mut ConeSolver, _, falls: bool| {
         hard = solver.is_exhausted() || only_upright && falls;
         placed += 1;
         match effort {
             Effort::Any => {}
-            Effort::OfInteriorPoint => solver.limit_effort(effort_of_interior_point(assembly, placed)),
-            Effort::OfUpright => solver.limit_effort(effort_of_upright(assembly, placed)),
+            Effort::OfInteriorPoint => solver.limit_effort(ladder(placed).effort_of_interior_point()),
+            Effort::OfUpright => solver.limit_effort(ladder(placed).effort_of_upright()),
         }
         !hard && go_on(placed - 1)
     };
@@ -49,29 +50,6 @@ pub(crate) enum Effort {
     /// As many as what bears upright takes: the interior-point method comes next in any case, and what is made beyond is in vain.
     OfUpright,
 }
-
-/// Twice the effort of so many blocks that bear upright. Measured for each block: columns 140 at most, walls and pyramids 320. In space
-/// bricks take 20,000, but load takedown comes next there. Arches, and random stacks from 80 blocks on, take longer than the
-/// interior-point method.
-fn effort_of_upright(assembly: &Assembly, blocks: usize) -> usize {
-    let of_a_block = if assembly.in_plane() { 600 } else { 8_000 };
-    of_a_block * (blocks + FIRST_BLOCKS)
-}
-
-/// In a structure of more blocks what is put up bears upright only if it never falls on the way: half an arch does.
-const SMALL: usize = 32;
-
-/// A structure of few blocks is worth as many pivots as one with so many more.
-const FIRST_BLOCKS: usize = 16;
-
-/// Effort ([`ConeSolver::effort`]) beyond which the interior-point method takes less time than the pivots that follow.
-pub(crate) fn effort_of_interior_point(assembly: &Assembly, blocks: usize) -> usize {
-    worth_of_pivots(assembly.components().len(), blocks)
-}
-
-/// A change is worth so many times more pivots than a verdict from nothing, about as long as the interior-point method itself
-/// takes: what is kept is lost with it.
-pub(crate) const OF_A_CHANGE: usize = 8;
 
 /// [`equilibrium_while`] to the end.
 pub(crate) fn equilibrium_of(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {

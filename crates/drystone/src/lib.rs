@@ -29,6 +29,7 @@ pub mod formulate;
 pub mod geometry;
 pub mod io;
 mod judgement;
+mod ladder;
 pub mod limit;
 pub mod load;
 mod mass_properties;

@@ -9,10 +9,10 @@ mod state;
 use crate::{
     check::{self, Verdict},
     crossover::from_interior,
-    equilibrium::{OF_A_CHANGE, effort_of_interior_point},
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet, Push},
     interrupt::or_else,
+    ladder::Ladder,
     limit::{Limit, limit_from},
     scene::SceneOf,
 };
@@ -176,7 +176,7 @@ impl Structure {
     /// Tells the solver of the changes and asks it. Where the pivots for this would take longer than the interior-point method,
     /// they are given up for a solver that begins where that ends.
     fn ask(&mut self, question: impl FnOnce(&mut ConeSolver) -> Membership) -> Membership {
-        let worth = OF_A_CHANGE * effort_of_interior_point(&self.assembly, self.blocks.len());
+        let worth = Ladder::of(&self.assembly, self.blocks.len()).effort_of_a_change();
         self.solver.limit_effort(self.solver.effort().saturating_add(worth));
         self.put_up();
         let mut found = question(&mut self.solver);

@@ -2,8 +2,9 @@
 
 use super::ends::{End, Limit};
 use crate::{
-    equilibrium::{collapse_motion, effort_of_interior_point},
+    equilibrium::collapse_motion,
     formulate::{Assembly, BlockSet, ContactForce, FrictionCone, Push},
+    ladder::Ladder,
 };
 use drystone_lcp::{
     Counts, Status,
@@ -22,7 +23,7 @@ pub(super) fn limit(
     found: Membership,
     solver: &ConeSolver,
 ) -> Option<Limit> {
-    let worth = effort_of_interior_point(assembly, blocks.len()) / OF_INTERIOR_POINT;
+    let worth = Ladder::of(assembly, blocks.len()).effort_of_interior_point() / OF_INTERIOR_POINT;
     Walk { assembly, blocks, push, worth }.limit(found, solver)
 }
 

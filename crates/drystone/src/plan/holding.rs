@@ -19,8 +19,8 @@ use super::reuse::certified_collapse;
 use super::stability::{PlanError, StabilityTest, TestOutcome, Tested, by_accelerations};
 use super::touching::Touching;
 use crate::{
-    equilibrium::{OF_A_CHANGE, effort_of_interior_point},
     formulate::{Assembly, BlockRows, BlockSet},
+    ladder::Ladder,
 };
 use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 
@@ -179,7 +179,7 @@ impl<'a> Holding<'a> {
     fn by_pivots(&mut self, held: &[usize], blocks: &BlockSet) -> Membership {
         let rows: Vec<usize> = held.iter().map(|&block| self.assembly.hand_row(block)).collect();
         self.solver.add_rows(&rows);
-        let worth = OF_A_CHANGE * effort_of_interior_point(self.assembly, blocks.len());
+        let worth = Ladder::of(self.assembly, blocks.len()).effort_of_a_change();
         self.solver.limit_effort(self.solver.effort().saturating_add(worth));
         let found = self.solver.decide();
         self.hard = found == Membership::PivotLimit && self.solver.is_exhausted();

@@ -5,8 +5,9 @@ use super::collapse::Collapse;
 use super::stability::{PlanError, StabilityTest, TestOutcome, Tested, by_accelerations};
 use super::touching::Touching;
 use crate::{
-    equilibrium::{OF_A_CHANGE, effort_of_interior_point, put_up},
+    equilibrium::put_up,
     formulate::{Assembly, BlockRows, BlockSet},
+    ladder::Ladder,
     takedown::Takedown,
 };
 use drystone_lcp::cone::{ConeSolver, Mark, Membership};
@@ -73,7 +74,7 @@ impl<'a> Reuse<'a> {
             tested: None,
             takedown: None,
             bearing: BlockSet::empty(blocks),
-            worth: OF_A_CHANGE * effort_of_interior_point(assembly, blocks),
+            worth: Ladder::of(assembly, blocks).effort_of_a_change(),
             hard: false,
             hard_from: None,
             touching: None,
@@ -116,10 +117,8 @@ impl<'a> Reuse<'a> {
         self.takedown.as_ref().is_some_and(bears)
     }
 
-    /// What pivots say of `added` on the current sub-assembly, as long as they take no more than so many times what the interior-point
-    /// method does.
-    fn by_pivots(&mut self, blocks: &BlockSet, added: usize, times: usize) -> Membership {
-        let most = effort_of_interior_point(self.assembly, blocks.len()).saturating_mul(times);
+    /// What pivots say of `added` on the current sub-assembly, up to an effort.
+    fn by_pivots(&mut self, blocks: &BlockSet, added: usize, most: usize) -> Membership {
         self.go_to_current();
         self.solver.limit_effort(self.solver.effort().saturating_add(most));
         self.solver.add_rows(self.rows.of(added));
@@ -181,7 +180,8 @@ impl StabilityTest for Reuse<'_> {
         }
         let before = self.solver.counts().pivots;
         self.hard = self.hard_from.is_some();
-        let mut found = if self.hard { Membership::PivotLimit } else { self.by_pivots(blocks, added, OF_A_CHANGE) };
+        let worth = Ladder::of(self.assembly, blocks.len()).effort_of_a_change();
+        let mut found = if self.hard { Membership::PivotLimit } else { self.by_pivots(blocks, added, worth) };
         if found == Membership::PivotLimit {
             self.hard = true;
             if let Some(tested) = self.by_interior_point(blocks, added) {

@@ -59,15 +59,6 @@ impl Stack {
         }
     }
 
-    /// Whether what bears by straight pressure is looked for before anything else: a small part of the pivots' time then, and where
-    /// it is found they are saved, with the columns of all generators. In the plane two pivots a block take as long; it is the
-    /// memory for the columns that is saved.
-    pub fn is_large(size: usize, blocks: usize) -> bool {
-        const IN_PLANE: usize = 20_000;
-        const IN_SPACE: usize = 500;
-        blocks >= if size == 3 { IN_PLANE } else { IN_SPACE }
-    }
-
     /// The block at the other side of a contact point.
     pub fn other(&self, point: u32, block: usize) -> Option<usize> {
         self.touching[point as usize].blocks.into_iter().flatten().find(|&other| other != block)

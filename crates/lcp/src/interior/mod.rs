@@ -45,5 +45,4 @@ pub use barrier::Barrier;
 pub use layers::Layers;
 pub use method::{End, Found};
 pub use problem::{Cone, Gauss, Point};
-pub use solving::worth_of_pivots;
 pub use walk::Walked;

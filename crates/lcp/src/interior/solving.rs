@@ -115,14 +115,6 @@ impl Gauss {
 /// Gap from which on forces that are positive in the end are told from those that are not.
 const TOLD_APART: f64 = 1e-6;
 
-/// Effort of an equilibrium solver ([`ConeSolver::effort`](crate::cone::ConeSolver::effort)) on so many bodies of so many unknowns
-/// beyond which this method takes less time than the pivots that follow. A number of operations, so that no clock decides.
-/// Measured: docs/theory/interior-point.md.
-pub fn worth_of_pivots(size: usize, bodies: usize) -> usize {
-    let of_a_body = if size == 3 { 2_000 } else { 50_000 };
-    of_a_body * (bodies + 16)
-}
-
 /// Multiples of the golden ratio's fraction are spread evenly and never repeat: no two sums of such costs are the same.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 

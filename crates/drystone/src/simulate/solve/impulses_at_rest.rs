@@ -3,6 +3,7 @@
 
 use crate::{
     geometry::{norm, product},
+    ladder::Ladder,
     scene::SceneOf,
     simulate::{
         formulate::contact_problem::{ContactProblem, wrench},
@@ -14,7 +15,7 @@ use crate::{
 use drystone_lcp::{
     Counts, LcpError, Start,
     cone::{ConeSolver, Membership},
-    interior::{End, Gauss, worth_of_pivots},
+    interior::{End, Gauss},
 };
 
 /// A contact that could close at this share of the speed that a step gives to free bodies, or less, is closed: rounding of
@@ -60,33 +61,44 @@ impl<'a, S: Kinematics> AtRest<'a, S> {
     /// # Errors
     /// [`LcpError`] for numbers that are not finite.
     pub fn decide(&self) -> Result<Decision, LcpError> {
-        let (size, bodies) = (components::<S>(), &self.bodies);
-        let large = Stack::is_large(size, bodies.len());
-        if large && let Some(start) = self.straight() {
-            return Ok(Decision { start: Some(start), work: Counts::default() });
+        let ladder = Ladder::new(components::<S>(), self.bodies.len());
+        let mut work = Counts::default();
+        if ladder.takedown_before_edges()
+            && let Some(start) = self.straight()
+        {
+            return Ok(Decision { start: Some(start), work });
         }
-        let mut solver = self.solver()?;
-        solver.limit_effort(worth_of_pivots(size, bodies.len()));
-        for &body in bodies {
-            solver.add_rows(&(size * body..size * (body + 1)).collect::<Vec<_>>());
-            solver.decide();
+        if ladder.pivots_next() {
+            let (found, solver) = self.by_pivots(ladder.effort_of_upright())?;
+            work = solver.counts();
+            if found != Membership::PivotLimit || !solver.is_exhausted() {
+                let start = (found == Membership::Inside).then(|| self.start(|column| solver.f(column)));
+                return Ok(Decision { start, work });
+            }
         }
-        let found = solver.solve();
-        let work = solver.counts();
-        if found != Membership::PivotLimit || !solver.is_exhausted() {
-            let start = (found == Membership::Inside).then(|| self.start(|column| solver.f(column)));
-            return Ok(Decision { start, work });
-        }
-        if !large && let Some(start) = self.straight() {
+        if !ladder.takedown_before_edges()
+            && let Some(start) = self.straight()
+        {
             return Ok(Decision { start: Some(start), work });
         }
         let Some((problem, forces)) = self.by_interior_point() else { return Ok(Decision { start: None, work }) };
         let mut solver = self.solver()?;
-        let start = match from_interior(&problem, &forces, bodies, &mut solver) {
+        let start = match from_interior(&problem, &forces, &self.bodies, &mut solver) {
             Membership::Inside => self.start(|column| solver.f(column)),
             _ => self.start(|column| forces[column]),
         };
         Ok(Decision { start: Some(start), work: work + solver.counts() })
+    }
+
+    /// Puts the bodies up one by one; [`Membership::PivotLimit`] beyond an effort.
+    fn by_pivots(&self, most: usize) -> Result<(Membership, ConeSolver), LcpError> {
+        let (size, mut solver) = (components::<S>(), self.solver()?);
+        solver.limit_effort(most);
+        for &body in &self.bodies {
+            solver.add_rows(&(size * body..size * (body + 1)).collect::<Vec<_>>());
+            solver.decide();
+        }
+        Ok((solver.solve(), solver))
     }
 
     /// Such impulses on rows that do not depend on one another, by the interior-point method. None if it leads to none.
@@ -171,7 +183,7 @@ fn from_interior(problem: &Gauss, forces: &[f64], bodies: &[usize], solver: &mut
         solver.add_group(&(problem.size * body..problem.size * (body + 1)).collect::<Vec<_>>());
     }
     solver.start_from(basis);
-    solver.limit_effort(solver.effort() + worth_of_pivots(problem.size, bodies.len()));
+    solver.limit_effort(solver.effort() + Ladder::new(problem.size, bodies.len()).effort_of_interior_point());
     solver.solve()
 }
 

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     contact::candidates::CandidateOf,
+    ladder::FEW_ROWS,
     simulate::{
         formulate::contact_problem::ContactProblem,
         kinematics::{Kinematics, is_zero},
@@ -116,7 +117,7 @@ pub fn start_from_interior<S: Kinematics>(
     step: &StepProblem<'_, S>,
     assumed: &[f64],
 ) -> Option<Start> {
-    if step.contacts.len() <= FEW {
+    if step.contacts.len() <= FEW_ROWS {
         return None;
     }
     let bodies: Vec<usize> = (0..state.scene.bodies().len()).filter(|&i| !state.scene.bodies()[i].fixed).collect();
@@ -161,6 +162,3 @@ fn residual<S: Kinematics>(state: &State<S>, step: &StepProblem<'_, S>, velociti
 
 /// An impulse below this share of the largest that a step's loads give is what the gap has left.
 const NOTHING: f64 = 1e-10;
-
-/// Most rows of a first step for which pivots from nothing are as good.
-const FEW: usize = 200;
