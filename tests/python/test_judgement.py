@@ -182,3 +182,16 @@ def test_a_motion_in_64_bits_proves_nothing_where_masses_differ_widely(count: in
     assert structure.right
     for method in ("interior", "equilibrium"):
         assert ds.check(scene_of(structure, Seen()), method=method).stable, method
+
+
+@pytest.mark.parametrize("method", ["equilibrium", "lcp", "interior"])
+def test_a_contact_problem_is_never_without_a_solution(method: str) -> None:
+    """Masses 1e13 apart: the pivots' proof that there is none is made of rounding."""
+    from structures.families import families, named, scene_of, seen_at_random
+
+    name, made = next(f for f in families(2) if "shims 1e10" in f[0])
+    rng = np.random.default_rng([0, 2, 0, 8528])
+    structure = named(made(rng), name)
+    verdict = ds.check(scene_of(structure, seen_at_random(rng, structure, False)), method=method)
+    assert verdict.status in ("solved", "numerical_trouble")
+    assert not verdict.stable
