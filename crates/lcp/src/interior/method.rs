@@ -2,6 +2,7 @@
 
 use super::{
     matrix::BodyMatrix,
+    restoring::{REST, Restoring, share_of_loads},
     scaled::{Scaled, largest},
     scaling::{Scaling, step},
 };
@@ -49,8 +50,6 @@ const RESIDUAL_OF_PUSH: f64 = 1e-12;
 const START: f64 = 10.0;
 /// Residuals in the problem's own scale: rounding of some ten terms of the largest force, or of one.
 const RESIDUAL: f64 = 1e-14;
-/// What the forces may leave of a body's own load: a hundredth of what counts as rest.
-pub(super) const REST: f64 = 1e-11;
 /// Iterations are some 10 to 25; ten times as many say that there is no progress.
 const MOST: usize = 200;
 /// An iteration that leaves more than this share of gap and residual is none, and how many of them in a row are the end.
@@ -192,13 +191,22 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
             return Some(self.found(End::Stalled, 0, f64::INFINITY));
         }
         let (mut best, mut since, mut residuals) = ([f64::INFINITY; 2], 0, self.residuals());
+        let mut restoring = Restoring::new(self.a.len(), self.f.len());
         for iteration in 0..MOST {
             let merit = residuals.merit();
-            if self.rests && self.massless == 0 && iteration > 0 && self.at_rest(&residuals) {
-                return Some(self.found(End::AtRest, iteration, residuals.gap));
+            if self.rests && self.massless == 0 && iteration > 0 {
+                let left = self.share_left(&residuals);
+                if left <= REST {
+                    return Some(self.found(End::AtRest, iteration + restoring.looks, residuals.gap));
+                }
+                if let Some(forces) = restoring.look(&self.problem, &mut matrix, &self.f, left) {
+                    self.f.copy_from_slice(forces);
+                    self.a.fill([0.0; B]);
+                    return Some(self.found(End::AtRest, iteration + restoring.looks, residuals.gap));
+                }
             }
             if merit <= 1.0 || self.rate > 0.0 && residuals.gap <= GAP_OF_PUSH && residuals.worst <= RESIDUAL_OF_PUSH {
-                return Some(self.found(End::Converged, iteration, residuals.gap));
+                return Some(self.found(End::Converged, iteration + restoring.looks, residuals.gap));
             }
             let (progress, patience, end) = match residuals.gap < LATE {
                 true => (LATE_PROGRESS, LATE_PATIENCE, End::Converged),
@@ -213,7 +221,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
                 return None;
             }
             if since > patience || !self.iterate(&mut matrix, &mut step, &residuals) {
-                return Some(self.found(end, iteration, residuals.gap));
+                return Some(self.found(end, iteration + restoring.looks, residuals.gap));
             }
             residuals = self.residuals();
         }
@@ -322,13 +330,10 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         Residuals { balance, motion, power, worst, gap, force }
     }
 
-    /// Whether what the forces leave of each body's load, `M a` and the residual, is none.
-    fn at_rest(&self, residuals: &Residuals<B>) -> bool {
+    /// The largest share that the forces leave of a body's own load: `M a` and the residual.
+    fn share_left(&self, residuals: &Residuals<B>) -> f64 {
         let left = self.a.iter().zip(&residuals.balance);
-        left.zip(&self.problem.load).all(|((a, balance), load)| {
-            let own = load.iter().fold(0.0_f64, |largest, load| largest.max(load.abs()));
-            (0..B).all(|k| (a[k] - balance[k]).abs() <= REST * own)
-        })
+        share_of_loads(&self.problem.load, left.map(|(a, balance)| std::array::from_fn(|k| a[k] - balance[k])))
     }
 
     fn found(self, end: End, iterations: usize, gap: f64) -> Found {

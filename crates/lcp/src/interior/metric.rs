@@ -57,9 +57,9 @@ impl<const B: usize, const D: usize> Metric<B, D> {
 }
 
 /// D of a point, on its directions.
-fn weight<const B: usize, const D: usize>(
-    problem: &Scaled<B, D, 2>,
-    point: &ScaledPoint<B, D, 2>,
+pub(super) fn weight<const B: usize, const D: usize, const N: usize>(
+    problem: &Scaled<B, D, N>,
+    point: &ScaledPoint<B, D, N>,
     f: &[f64],
 ) -> [[f64; D]; D] {
     let (edges, f) = (&problem.edges[point.own()], &f[point.own()]);
@@ -82,7 +82,7 @@ fn weight<const B: usize, const D: usize>(
 
 /// Takes D times a motion from the forces of a point: the squares of the magnitudes along edges, `2 f f' - det(f) diag(1, -1, -1)`
 /// in a round cone.
-fn give_way(round: bool, f: &[f64], moved: &[f64], df: &mut [f64]) {
+pub(super) fn give_way(round: bool, f: &[f64], moved: &[f64], df: &mut [f64]) {
     if !round {
         df.iter_mut().zip(f.iter().zip(moved)).for_each(|(df, (f, moved))| *df -= f * f * moved);
         return;

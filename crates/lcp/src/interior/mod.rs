@@ -35,6 +35,7 @@ mod metric;
 mod nearby;
 mod problem;
 mod resting;
+mod restoring;
 mod scaled;
 mod scaling;
 mod solving;

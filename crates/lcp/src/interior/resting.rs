@@ -11,9 +11,10 @@
 //! hold the bodies; if not, it is cut short and made again from there (the affine scaling of I. I. Dikin, 1967).
 
 use super::{
-    method::{End, Found, REST},
+    method::{End, Found},
     metric::Metric,
     problem::{Cone, Gauss},
+    restoring::{REST, share_of_loads},
 };
 
 /// In the problem's own scale, where the largest load is one: a force of which nothing is known.
@@ -91,10 +92,7 @@ impl<const B: usize, const D: usize> Resting<B, D> {
         let problem = &self.metric.problem;
         self.left.copy_from_slice(&problem.load);
         problem.add_wrenches(&self.f, 1.0, &mut self.left);
-        self.left.iter().zip(&problem.load).all(|(left, load)| {
-            let own = load.iter().fold(0.0_f64, |largest, load| largest.max(load.abs()));
-            left.iter().all(|left| left.abs() <= REST * own)
-        })
+        share_of_loads(&problem.load, self.left.iter().copied()) <= REST
     }
 
     /// None if it leads nowhere.

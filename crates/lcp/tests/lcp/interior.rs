@@ -260,6 +260,38 @@ fn held(seed: u64, size: usize, friction: Option<f64>) -> (Gauss, Layers) {
     (problem, layers)
 }
 
+/// What forces inside their cones hold is held in few steps, the last of which is the least change that balances the loads.
+#[test]
+fn what_stands_is_held_to_rounding_in_few_steps() {
+    let mut most = [0; 3];
+    for seed in 0..60 {
+        let kind = seed as usize % 3;
+        let (size, friction) = [(3, None), (6, None), (6, Some(0.5))][kind];
+        let (mut problem, layers) = held(seed, size, friction);
+        let some: Vec<f64> = match friction {
+            Some(_) => [1.0, 0.1, 0.2].repeat(problem.points.len()),
+            None => [1.0, 0.5].repeat(problem.points.len()),
+        };
+        problem.load = wrenches(&problem, &layers, &some).0.iter().map(|load| -load).collect();
+        let found = problem.solve();
+        assert_eq!(found.end, End::AtRest, "seed {seed}");
+        most[kind] = most[kind].max(found.iterations);
+        for (wrench, load) in wrenches(&problem, &layers, &found.forces).0.iter().zip(&problem.load) {
+            assert!((wrench + load).abs() < 1e-10, "seed {seed}: {wrench} {load}");
+        }
+        let mut forces = &found.forces[..];
+        for point in &problem.points {
+            let (own, rest) = forces.split_at(point.cone.unknowns());
+            forces = rest;
+            match point.cone {
+                Cone::Edges(_) => assert!(own.iter().all(|&f| f > 0.0), "seed {seed}: {own:?}"),
+                Cone::Round { friction } => assert!(own[1].hypot(own[2]) < friction * own[0], "seed {seed}: {own:?}"),
+            }
+        }
+    }
+    assert_eq!(most, [6, 6, 6]);
+}
+
 /// (4) has no better forces: with the multipliers y and `u = Q W` no cone has a force along which the norm falls, and what bears
 /// is square to its motion.
 #[test]
