@@ -106,15 +106,16 @@ pub fn solve_on_round_cones<S: Kinematics>(
         None => Vec::new(),
     };
     let most = if state.is_at_rest() { COARSE_FROM_REST } else { COARSE };
-    let motion = from_impulses(state, step, &impulses).filter(|motion| is_within(motion, most, state))?;
+    let motion = from_impulses(state, step, &impulses).filter(|motion| is_within(motion, most))?;
     // What pivots had taken over is of another step from now on.
     previous.solver.forget();
     previous.at_rest = None;
     Some(motion)
 }
 
-fn is_within<S: Kinematics>(motion: &Motion<S>, share: f64, state: &State<S>) -> bool {
-    motion.residual <= share.max(state.options.coulomb_tolerance)
+/// Whether it is exact, or its error is within this share of the speeds; where there are none, that is no error.
+fn is_within<S: Kinematics>(motion: &Motion<S>, share: f64) -> bool {
+    motion.exact || (motion.residual > 0.0 && motion.residual <= share)
 }
 
 /// Solves a step from where pivots ended that did not come to the law. None where what they found is as near, or nothing near the law was
@@ -127,7 +128,7 @@ pub fn solve_after_pivots<S: Kinematics>(
     if state.options.reuse != Reuse::Full {
         return None;
     }
-    let nearer = |motion: &Motion<S>| motion.friction_error < pivots.friction_error && is_within(motion, COARSE, state);
+    let nearer = |motion: &Motion<S>| motion.friction_error < pivots.friction_error && is_within(motion, COARSE);
     from_impulses(state, step, &pivots.impulses).filter(nearer)
 }
 
