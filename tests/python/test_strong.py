@@ -104,6 +104,16 @@ def test_what_needs_friction_and_must_stand(name: str) -> None:
     assert verdict.nodes <= 20
 
 
+def test_courses_bear_what_no_single_face_must() -> None:
+    """Under its neighbours' arching each face of a course may bear nothing."""
+    for rows, columns, most in ((2, 3, 5), (3, 3, 150)):
+        wall = turned(ds.scenes.wall(rows=rows, columns=columns, friction=0.5), 10.0)
+        verdict = ds.check(wall, strong=True)
+        assert verdict.must_stand
+        assert verdict.nodes is not None
+        assert verdict.nodes <= most
+
+
 def test_a_slope_at_its_limit() -> None:
     """tan(angle) = mu, a little less and a little more: it slides with g (sin - mu cos)."""
     mu = 0.5

@@ -28,6 +28,8 @@ pub(super) struct Branch {
     pub no_edge: Vec<[bool; 2]>,
     /// Of each face: what it bears at least, along its normal, where it slides this way.
     pub least: Vec<[f64; 2]>,
+    /// Of each chain and way: what a face, the fastest first, and all that are faster bear at least together, where it slides.
+    pub sums: Vec<[Vec<f64>; 2]>,
     /// Where the next program begins: its basis.
     pub basis: Vec<usize>,
 }
@@ -43,6 +45,7 @@ impl Branch {
             no_sliding: vec![[false; 2]; faces],
             no_edge: vec![[false; 2]; faces],
             least: vec![[0.0; 2]; faces],
+            sums: Vec::new(),
             basis: Vec::new(),
         }
     }

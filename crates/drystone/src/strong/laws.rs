@@ -4,12 +4,12 @@ use crate::formulate::{Assembly, BlockSet, ContactForce, FrictionCone};
 use crate::formulate::{BodySpace, Components};
 
 /// Two points of one face slide alike if their rows differ by no more than this share.
-const ALIKE: f64 = 1e-9;
+pub(super) const ALIKE: f64 = 1e-9;
 
 /// Mass matrix, loads and contact points of a sub-assembly: accelerations are `M^1/2 a / s` and forces `f / s`, with `s^2 =
 /// F' M^-1 F`.
 pub(super) struct Laws<'a> {
-    space: BodySpace<'a>,
+    pub space: BodySpace<'a>,
     /// `s`, and of every unknown `M^1/2`.
     scale: f64,
     root_mass: Vec<f64>,
@@ -18,6 +18,8 @@ pub(super) struct Laws<'a> {
     pub points: Vec<Point>,
     /// The points that slide alike, those of one face, and their coefficient.
     pub faces: Vec<Face>,
+    /// See [`super::chains`]; none before they are looked for.
+    pub chains: Vec<Vec<usize>>,
 }
 
 /// A row of `J M^-1/2`: by (unknown, value).
@@ -60,7 +62,7 @@ impl<'a> Laws<'a> {
             .collect();
         let pairs: Vec<[usize; 2]> = space.contacts().map(|contact| contact.bodies).collect();
         let faces = faces(&points, &pairs);
-        Some(Self { scale: falls, root_mass, load, points, faces, space })
+        Some(Self { scale: falls, root_mass, load, points, faces, chains: Vec::new(), space })
     }
 
     /// Unknown accelerations.

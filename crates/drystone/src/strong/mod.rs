@@ -16,6 +16,7 @@
 
 mod answer;
 mod branch;
+mod chains;
 mod escape;
 mod laws;
 mod program;

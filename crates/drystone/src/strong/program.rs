@@ -9,16 +9,18 @@
 //! settled takes columns out: e of a point without force, one of the two e of a face that slides, u of a way in which none
 //! slides; a_n = 0 is a row without slack.
 
-use super::{branch::Branch, laws::Laws};
+use super::{branch::Branch, chains::bearings, laws::Laws};
 use drystone_lcp::cone::{Columns, ConeSolver, Greatest, Membership};
 
 /// What a program is to find.
 #[derive(Clone, Copy)]
-pub(super) enum Objective {
+pub(super) enum Objective<'a> {
     /// The most power of the loads beyond what friction is known to take: the left side of (2).
     Power,
-    /// The least normal force of a face.
-    Bearing(usize),
+    /// The least normal force of some faces together.
+    Bearing(&'a [usize]),
+    /// By how much the second of two faces slides faster along the tangent than the first, at least.
+    Lead([usize; 2]),
 }
 
 /// How a program ended.
@@ -110,9 +112,9 @@ impl Writer {
 }
 
 /// Solves the program of a branch from its basis.
-pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective) -> Answer {
+pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>) -> Answer {
     let layout = Layout::of(laws);
-    let rows = layout.power_row() + 1 + usize::from(matches!(objective, Objective::Bearing(_)));
+    let rows = layout.power_row() + 1 + usize::from(!matches!(objective, Objective::Power));
     let columns = columns(laws, branch, objective, &layout);
     let mut h = vec![0.0; rows];
     h[..layout.size].copy_from_slice(&laws.load);
@@ -130,7 +132,7 @@ pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective) -> Answe
     solver.limit_effort(EFFORT * rows);
     let sought = match objective {
         Objective::Power => (layout.power_row(), -1.0),
-        Objective::Bearing(_) => (layout.power_row() + 1, 1.0),
+        _ => (layout.power_row() + 1, 1.0),
     };
     let Ok(load) = solver.add_load(&[sought]) else { return Answer::Unknown };
     solver.add_rows(&(0..rows).collect::<Vec<_>>());
@@ -147,7 +149,8 @@ pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective) -> Answe
     Answer::Best(best, found(laws, &layout, &solver, &names, &place))
 }
 
-fn columns(laws: &Laws, branch: &Branch, objective: Objective, layout: &Layout) -> Writer {
+fn columns(laws: &Laws, branch: &Branch, objective: Objective<'_>, layout: &Layout) -> Writer {
+    let bearings = bearings(laws, branch);
     let size = layout.size;
     let mut own: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
     for (k, entries) in own.iter_mut().enumerate() {
@@ -161,6 +164,13 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective, layout: &Layout) 
         tangent.iter().for_each(|&(k, value)| own[k].push((layout.tangent_row(index), value)));
     }
     (0..size).for_each(|k| own[k].push((layout.power_row(), laws.load[k])));
+    if let Objective::Lead(faces) = objective {
+        for (face, sign) in faces.into_iter().zip([-1.0, 1.0]) {
+            let tangent = &laws.points[laws.faces[face].points[0]].tangent;
+            tangent.iter().for_each(|&(k, value)| own[k].push((layout.power_row() + 1, sign * value)));
+        }
+        own.iter_mut().for_each(|entries| *entries = summed(entries.iter().copied()));
+    }
     let mut writer = Writer::default();
     for (k, entries) in own.iter().enumerate() {
         for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
@@ -180,7 +190,7 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective, layout: &Layout) 
                 let normal = point.normal.iter().map(|&(k, value)| (k, -value));
                 let slope = sign * point.friction;
                 let tangent = point.tangent.iter().map(move |&(k, value)| (k, -slope * value));
-                let sought = matches!(objective, Objective::Bearing(face) if face_of[index] == Some(face));
+                let sought = matches!(objective, Objective::Bearing(faces) if face_of[index].is_some_and(|face| faces.contains(&face)));
                 let counted = sought.then_some((layout.power_row() + 1, 1.0));
                 writer.column(layout.edge(index, edge), summed(normal.chain(tangent)).into_iter().chain(counted));
             }
@@ -192,7 +202,7 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective, layout: &Layout) 
     for (index, face) in laws.faces.iter().enumerate() {
         for (way, sign) in [-1.0, 1.0].into_iter().enumerate() {
             if !branch.no_sliding[index][way] {
-                let loss = -face.friction * branch.least[index][way];
+                let loss = -face.friction * bearings[index][way];
                 writer.column(
                     layout.sliding(index, way),
                     [(layout.tangent_row(index), sign), (layout.power_row(), loss)],
@@ -200,7 +210,7 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective, layout: &Layout) 
             }
         }
     }
-    if matches!(objective, Objective::Bearing(_)) {
+    if !matches!(objective, Objective::Power) {
         writer.column(layout.surplus(), [(layout.power_row(), -1.0)]);
     }
     writer

@@ -2,7 +2,8 @@
 
 use super::{
     answer::Strong,
-    branch::{Branch, Choice},
+    branch::{Branch, Choice, Way},
+    chains::{disjoint, fastest_first, rows_of_faces},
     escape::Escape,
     laws::{Laws, Row},
     program::{Answer, Found, Objective, solve},
@@ -18,6 +19,9 @@ const NO_POWER: f64 = 1e-9;
 
 /// By how much a least bearing is taken lower than it was found, of the loads: the rounding of a program's optimum.
 const OF_A_BOUND: f64 = 1e-9;
+
+/// A face that is behind another by no more than this is not: rounding of an optimum of zero.
+const BEHIND: f64 = 1e-12;
 
 /// A law is broken if both of what must not be there together are above this, of free fall and of the loads.
 const BROKEN: f64 = 1e-8;
@@ -56,6 +60,8 @@ struct Search<'a> {
     blocks: &'a BlockSet,
     laws: Laws<'a>,
     programs: usize,
+    /// Whether chains have been looked for: not before the root would be split.
+    ordered: bool,
 }
 
 /// See [`super::strong`].
@@ -64,7 +70,7 @@ pub(super) fn search(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_o
         return Some(Strong { must_stand: Some(true), escape: None, nodes: 0, programs: 0 });
     };
     let root = Branch::root(&laws);
-    let mut search = Search { assembly, blocks, laws, programs: 0 };
+    let mut search = Search { assembly, blocks, laws, programs: 0, ordered: false };
     let (mut open, mut nodes, mut unknown) = (vec![root], 0, false);
     let mut escape = None;
     while let Some(branch) = open.pop() {
@@ -91,7 +97,7 @@ pub(super) fn search(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_o
 }
 
 impl Search<'_> {
-    fn solve(&mut self, branch: &Branch, objective: Objective) -> Answer {
+    fn solve(&mut self, branch: &Branch, objective: Objective<'_>) -> Answer {
         self.programs += 1;
         solve(&self.laws, branch, objective)
     }
@@ -140,11 +146,59 @@ impl Search<'_> {
                     None => news = true,
                 }
             }
-            if !news {
+            if !news && self.ordered {
                 break;
+            }
+            if !news {
+                self.order(&mut branch);
             }
         }
         split.map_or(Node::Unknown, Node::Split)
+    }
+
+    /// Finds out which faces of a row slide faster than which, whatever the motion.
+    fn order(&mut self, root: &mut Branch) {
+        let anything = Branch::root(&self.laws);
+        let mut chains: Vec<Vec<usize>> = Vec::new();
+        for row in rows_of_faces(&self.laws) {
+            for order in [row.clone(), row.iter().rev().copied().collect()] {
+                let mut chain: Vec<usize> = Vec::new();
+                for face in order {
+                    if chain.last().is_some_and(|&last| !self.leads(&anything, last, face)) {
+                        chains.push(std::mem::take(&mut chain));
+                    }
+                    chain.push(face);
+                }
+                chains.push(chain);
+            }
+        }
+        self.laws.chains = disjoint(chains, self.laws.faces.len());
+        let nothing = |chain: &Vec<usize>| [vec![0.0; chain.len()], vec![0.0; chain.len()]];
+        root.sums = self.laws.chains.iter().map(nothing).collect();
+        self.ordered = true;
+    }
+
+    /// Whether a face slides along the tangent at least as fast as another in every solution.
+    fn leads(&mut self, anything: &Branch, other: usize, face: usize) -> bool {
+        matches!(self.solve(anything, Objective::Lead([other, face])), Answer::Best(lead, _) if lead >= -BEHIND)
+    }
+
+    /// A face slides, so that all faster ones of its chain do: where their sum is kept, and what they bear at least together. None
+    /// without faster ones; an error if it cannot slide.
+    fn sum(&mut self, slides: &mut Branch, face: usize, way: Way) -> Result<Option<([usize; 2], f64)>, ()> {
+        let place = |chain: &Vec<usize>| fastest_first(chain, way).iter().position(|&other| other == face);
+        let found = self.laws.chains.iter().enumerate().find_map(|(number, chain)| Some((number, place(chain)?)));
+        // A branch from before the chains were known has no sums.
+        let Some((chain, k)) = found.filter(|&(chain, k)| k > 0 && chain < slides.sums.len()) else { return Ok(None) };
+        let faces = fastest_first(&self.laws.chains[chain], way);
+        for &faster in &faces[..k] {
+            *slides = slides.clone().first(Choice::Sliding(faster, way));
+        }
+        match self.solve(slides, Objective::Bearing(&faces[..=k])) {
+            Answer::None => Err(()),
+            Answer::Best(sum, _) => Ok(Some(([chain, k], sum - OF_A_BOUND))),
+            Answer::Unknown => Ok(None),
+        }
     }
 
     /// Both sides of a choice, and what splitting by it is worth; None if only one of them is open, or more is known now: the
@@ -161,7 +215,7 @@ impl Search<'_> {
         };
         let mut news = false;
         if let Choice::Sliding(face, way) = choice {
-            match self.solve(&first, Objective::Bearing(face)) {
+            match self.solve(&first, Objective::Bearing(&[face])) {
                 Answer::None => {
                     *branch = branch.clone().second(choice);
                     return None;
@@ -172,6 +226,23 @@ impl Search<'_> {
                     first.least[face][way] = first.least[face][way].max(least);
                     if least > GROWS_BY * known + NEWS {
                         branch.least[face][way] = least;
+                        news = true;
+                    }
+                }
+            }
+        }
+        if let Choice::Sliding(face, way) = choice {
+            match self.sum(&mut first, face, way) {
+                Ok(None) => {}
+                Err(()) => {
+                    *branch = branch.clone().second(choice);
+                    return None;
+                }
+                Ok(Some(([chain, k], sum))) => {
+                    let known = branch.sums[chain][way][k];
+                    first.sums[chain][way][k] = known.max(sum);
+                    if sum > GROWS_BY * known + NEWS {
+                        branch.sums[chain][way][k] = sum;
                         news = true;
                     }
                 }
