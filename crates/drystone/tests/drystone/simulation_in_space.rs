@@ -348,3 +348,16 @@ fn the_acceleration_level_is_refused() {
     let refused = WorldInSpace::new(on_ground(0.5), options).unwrap_err();
     assert!(matches!(refused, SimulationError::NoSuchLaw { .. }) && refused.to_string().contains("velocity"));
 }
+
+/// A cube that hits a wall of bricks: no step, to the last in which it settles, takes pivots from nothing. One of these took 2,610.
+#[test]
+fn a_wall_that_was_hit_settles_in_few_pivots() {
+    let mut scene = scenes::brick_wall(6, 4, 0.6).unwrap();
+    let options = BodyOptions { density: 3.0, ..named("thrown") };
+    scene.add_cuboid(at([2.0, -4.0, 1.5]), [0.6; 3], options).unwrap();
+    let mut world = world(scene);
+    world.set_velocity("thrown", [0.0, 9.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
+    let most = (0..260).map(|_| world.step().unwrap().counts.pivots).max();
+    assert!(most <= Some(300), "{most:?}");
+    assert!(world.velocities().iter().flatten().all(|v| *v == 0.0));
+}
