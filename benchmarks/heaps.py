@@ -22,12 +22,15 @@ from rich.console import Console
 from rich.table import Table
 
 import drystone as ds
+from simulators.base import Velocities
 from simulators.mujoco import MuJoCo
 
 BOXES = (10, 27, 54, 200, 500)
 STEPS, DT = 480, 1 / 240
 SPACING = 1.3
 """Metres between the middles of boxes of .3 to .8 m, three by three in a layer."""
+THROWN = {"thrown": (0, 9, 0, 0, 0, 0)}
+"""m/s, rad/s."""
 
 
 def heap(boxes: int, seed: int = 0) -> ds.Scene:
@@ -44,18 +47,24 @@ def heap(boxes: int, seed: int = 0) -> ds.Scene:
     return scene
 
 
-def thrown() -> ds.Run:
-    """A cube that hits a wall of 27 bricks at 9 m/s, and the wall's fall."""
+def thrown() -> ds.Scene:
+    """A wall of 27 bricks, and a cube that hits it when it flies as `THROWN` says."""
     scene = ds.scenes.brick_wall(6, 4)
     scene.add_box((2, -4, 1.5), (0.6, 0.6, 0.6), name="thrown", density=3)
-    return ds.simulate(scene, DT, 360, velocities={"thrown": (0, 9, 0, 0, 0, 0)})
+    return scene
 
 
-def cells(run: ds.Run) -> list[str]:
-    """What one line says of our run."""
+def line(scene: ds.Scene, steps: int, velocities: Velocities | None = None) -> list[str]:
+    """The cells of one line: ours, and MuJoCo's where it is installed."""
+    run = ds.simulate(scene, DT, steps, velocities=velocities)
     seconds = run.step_seconds
     exact = f"{run.not_exact} of {run.steps}"
-    return [f"{1e6 * seconds.mean():.0f}", f"{1e3 * seconds.max():.0f}", exact]
+    ours = [f"{1e6 * seconds.mean():.0f}", f"{1e3 * seconds.max():.0f}", exact]
+    peer = MuJoCo(cone="elliptic")
+    if peer.missing():
+        return [*ours, "", ""]
+    step = peer.run(scene, DT, steps, steps, velocities).seconds / steps
+    return [*ours, f"{1e6 * step:.0f}", f"{seconds.mean() / step:.1f}"]
 
 
 def main() -> None:
@@ -64,17 +73,10 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
     parser.add_argument("boxes", nargs="*", type=int, default=BOXES)
-    peer = MuJoCo(cone="elliptic")
     table = Table("", "us a step", "worst, ms", "not exact", "MuJoCo, us", "ratio")
     for boxes in parser.parse_args().boxes:
-        scene = heap(boxes)
-        run = ds.simulate(scene, DT, STEPS)
-        theirs = ["", ""]
-        if not peer.missing():
-            step = peer.run(scene, DT, STEPS, STEPS).seconds / STEPS
-            theirs = [f"{1e6 * step:.0f}", f"{run.step_seconds.mean() / step:.1f}"]
-        table.add_row(f"{boxes} boxes", *cells(run), *theirs)
-    table.add_row("thrown cube", *cells(thrown()), "", "")
+        table.add_row(f"{boxes} boxes", *line(heap(boxes), STEPS))
+    table.add_row("thrown cube", *line(thrown(), 360, THROWN))
     Console(width=100).print(table)
 
 

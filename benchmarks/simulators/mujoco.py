@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from importlib import metadata
 from typing import Any
 
@@ -62,7 +62,7 @@ class MuJoCo(Simulator):
         data = mujoco.MjData(model)
         moving = [body["name"] for body in bodies if not body["fixed"]]
         for name, velocity in (velocities or {}).items():
-            data.qvel[3 * moving.index(name) :][:3] = velocity
+            _start(scene.dimension, moving.index(name), velocity, data)
         states = _states if scene.dimension == 2 else _states_in_space
         frames = [states(bodies, data)]
         seconds = 0.0
@@ -102,6 +102,15 @@ def _free_body(body: dict[str, Any], friction: float) -> str:
     )
     place = f'pos="{_spaced(body["position"])}" quat="{_spaced(body["orientation"])}"'
     return f"<body {place}>{'' if body['fixed'] else '<freejoint/>'}{geom}</body>"
+
+
+def _start(dimension: int, place: int, velocity: Sequence[float], data: Any) -> None:
+    """Gives a body a velocity; see `_states_in_space`."""
+    if dimension == 2:
+        data.qvel[3 * place :][:3] = velocity
+        return
+    axes = axes_of(data.qpos[7 * place :][None, :7], 3)[0]
+    data.qvel[6 * place :][:6] = [*velocity[:3], *(axes @ velocity[3:])]
 
 
 def _states_in_space(bodies: list[dict[str, Any]], data: Any) -> list[Any]:
