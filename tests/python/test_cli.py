@@ -76,6 +76,13 @@ def test_plan_as_json(cli: Cli, test: str) -> None:
     assert len(answer["records"]) == answer["tests"]
 
 
+def test_an_order_of_many_blocks_is_cut(cli: Cli) -> None:
+    ran = cli("plan", "column:301")
+    assert ran.status == 0
+    assert "... 100 more; --json lists all" in ran.out
+    assert len(ran.out) < 4000
+
+
 def test_plan_without_an_order(cli: Cli, tmp_path: Path) -> None:
     orderless(1).save(tmp_path / "scene.json")
     ran = cli("plan", tmp_path / "scene.json")

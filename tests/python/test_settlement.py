@@ -280,3 +280,12 @@ def test_on_the_command_line(cli: Cli, tmp_path: Path) -> None:
         ran = cli("check", path, "--settle", text)
         assert ran.status == 2
         assert words in ran.err
+
+
+def test_what_moves_as_a_whole_does_no_work_and_opens_no_joint() -> None:
+    arch = ds.scenes.arch(voussoirs=15, thickness=0.3)
+    arch.add_settlement("ground", (0.02, 0))
+    settled = ds.check(arch).settled
+    assert settled is not None
+    assert settled.joints == ()
+    assert "0 joints open (0 hinges); the loads do 0 J;" in str(settled)

@@ -88,7 +88,8 @@ def _print(verdict: Verdict, picture: Path | None) -> None:
     colour = "yellow" if undecided else "green" if verdict.stable else "red"
     out.print(str(verdict), style=f"bold {colour}")
     if verdict.settled is not None:
-        out.print(joints_table(verdict.settled))
+        if verdict.settled.joints:
+            out.print(joints_table(verdict.settled))
     else:
         out.print(verdict_table(verdict))
     if verdict.settled is None and verdict.stable and verdict.forces.kind == ANY:

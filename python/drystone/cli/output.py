@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from drystone.common.text import shown
-from drystone.report.tables import WIDE
+from drystone.report.tables import IN_JSON, WIDE
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -32,9 +32,20 @@ def facts() -> Table:
     return made
 
 
+MOST_IN_A_ROW = 200
+"""Words that are printed one after the other: two screens or so."""
+
+
 def names(every: Sequence[str]) -> str:
-    """Names in a row; in quotes where one could be taken for several."""
-    return " ".join(_quoted(shown(name)) for name in every)
+    """The first names in a row; in quotes where one could be taken for several."""
+    return in_a_row([_quoted(shown(name)) for name in every[:MOST_IN_A_ROW]], len(every))
+
+
+def in_a_row(words: Sequence[str], count: int, between: str = " ") -> str:
+    """The first of so many words, and how many more there are."""
+    row = between.join(words[:MOST_IN_A_ROW])
+    more = count - MOST_IN_A_ROW
+    return row if more <= 0 else f"{row}{between}... {more} more; {IN_JSON}"
 
 
 def _quoted(name: str) -> str:

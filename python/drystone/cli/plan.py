@@ -18,7 +18,7 @@ from drystone.cli.inputs import (
     reporting_files,
     said_of,
 )
-from drystone.cli.output import console, facts, names
+from drystone.cli.output import console, facts, in_a_row, names
 from drystone.common.cones import Pyramid
 from drystone.common.progress import ForcesProgress, PlanProgress
 from drystone.common.text import shown
@@ -115,7 +115,8 @@ def _print(found: Plan, picture: Path | None) -> None:
         if found.whole is not None:
             told.add_row("the whole assembly", str(found.whole))
     if found.margin and found.found:
-        told.add_row("bears sideways, in g", " ".join(f"{m:.3g}" for m in found.margins))
+        bears = [f"{m:.3g}" for m in found.margins]
+        told.add_row("bears sideways, in g", in_a_row(bears, len(bears)))
     if any(found.holds):
         told.add_row("hold and release", _hold_steps(found))
         if len(found.scene.contacts) * len(found.order or found.reached) <= MOST_POINTS:
@@ -138,7 +139,8 @@ def _hold_steps(found: Plan) -> str:
     before: dict[int, list[str]] = {}
     for action, name, k in found.hold_steps:
         before.setdefault(k, []).append(f"{action} {shown(name)}")
-    return "; ".join(f"before {shown(order[k])}: {', '.join(steps)}" for k, steps in before.items())
+    steps = [f"before {shown(order[k])}: {', '.join(steps)}" for k, steps in before.items()]
+    return in_a_row(steps, len(steps), "; ")
 
 
 def _hands(found: Plan) -> str:
@@ -149,14 +151,16 @@ def _hands(found: Plan) -> str:
             force = math.hypot(*wrench[: found.scene.dimension].tolist())
             most[name] = max(most.get(name, 0.0), force)
     size, unit = scale_of(most.values(), "N")
-    return ", ".join(f"{shown(name)}: {force / size:.3g} {unit}" for name, force in most.items())
+    forces = [f"{shown(name)}: {force / size:.3g} {unit}" for name, force in most.items()]
+    return in_a_row(forces, len(forces), ", ")
 
 
 def _directions(found: Plan) -> str:
     """Rounded, without minus zeros; runs of the same one are counted."""
     texts = (" then ".join(_numbers(move.direction) for move in moves) for moves in found.moves)
-    runs = ((text, len(list(run))) for text, run in groupby(texts))
-    return " ".join(text if count == 1 else f"{count} x {text}" for text, count in runs)
+    runs = [(text, len(list(run))) for text, run in groupby(texts)]
+    ways = [text if count == 1 else f"{count} x {text}" for text, count in runs]
+    return in_a_row(ways, len(ways))
 
 
 def _numbers(way: tuple[float, ...]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
 JointOpening: TypeAlias = Literal["hinge", "slides", "parts"]
 """What an open joint does."""
+
+ROUNDING = 1e-12
+"""Work below this share of all weights times the largest displacement is rounding."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,8 +153,14 @@ class Settled(Drawn):
         )
         return (
             f"Settlement: {blocks} move, {joints} ({counted(len(self.hinges), 'hinge')}); "
-            f"the loads do {self.work:.4g} J; {work}."
+            f"the loads do {self._work_said():.4g} J; {work}."
         )
+
+    def _work_said(self) -> float:
+        """The work, or 0 where it is rounding of what the weights could do."""
+        weights = sum(body.mass for body in self.scene.bodies) * math.hypot(*self.scene.gravity)
+        could = weights * float(abs(self.displacements).max(initial=0.0))
+        return self.work if abs(self.work) > ROUNDING * could else 0.0
 
     def __repr__(self) -> str:
         return f"<{self}>"
