@@ -118,20 +118,24 @@ def _verdicts(every: Iterable[Row]) -> tuple[list[str], list[list[str]]]:
 
 
 def _hard(every: Iterable[Row]) -> tuple[list[str], list[list[str]]]:
-    """Who falls, how deep blocks are in one another, and the time of a step."""
+    """By simulator the time of a step, who falls, and how deep blocks are in one another."""
     every = list(every)
     names = list(dict.fromkeys(row["simulator"] for row in every))
-    columns = ("fallen", "penetration", "microseconds")
     lines = []
     for scene in dict.fromkeys(row["scene"] for row in every):
         own = {row["simulator"]: row for row in every if row["scene"] == scene}
         first = next(iter(own.values()))
         line = [scene, first["blocks"], {"stand": "0", "fall": "all"}[first["should"]]]
-        cells = (own[name][column] or "-" for name in names for column in columns)
-        lines.append(line + [cell if cell == "-" else f"{float(cell):.3g}" for cell in cells])
-    words = ("fallen", "overlap, m", "µs")
-    head = ["scene", "blocks", "should fall"]
-    return [*head, *(f"{name}: {word}" for name in names for word in words)], lines
+        lines.append(line + [_of_hard(own[name]) for name in names])
+    return ["scene", "blocks", "should fall", *names], lines
+
+
+def _of_hard(row: Row) -> str:
+    if not row["microseconds"]:
+        return "-"
+    step = float(format(float(row["microseconds"]), ".3g"))
+    overlap = _millimetres(float(row["penetration"]))
+    return f"{step:g} µs, {row['fallen']} fell, {overlap}"
 
 
 TABLES: dict[str, tuple[str, Callable[[Iterable[Row]], tuple[list[str], list[list[str]]]]]] = {
@@ -158,7 +162,10 @@ def _times(row: Row | None, column: str) -> str:
 def _drift(row: Row | None) -> str:
     if row is None or not row["displacement"]:
         return "-"
-    metres = float(row["displacement"])
+    return _millimetres(float(row["displacement"]))
+
+
+def _millimetres(metres: float) -> str:
     return f"{1e3 * metres:.3g} mm" if metres else "0"
 
 
