@@ -4,7 +4,6 @@ use super::{
     formulate::{contact_problem::ContactProblem, islands::Islands},
     kinematics::{Kinematics, loaded},
     options::COULOMB_TOLERANCE,
-    solve::Motion,
     state::State,
 };
 use crate::{
@@ -20,13 +19,14 @@ use crate::{
 pub(super) fn motionless_in_step<S: Kinematics>(
     state: &State<S>,
     contacts: &ContactProblem<S>,
-    motion: &Motion<S>,
+    velocities: &[S::Velocity],
+    unseen: f64,
 ) -> Vec<bool> {
-    let mut motionless = motionless_bodies(state, &motion.velocities, motion.unseen);
+    let mut motionless = motionless_bodies(state, velocities, unseen);
     let creep = state.options.coulomb_tolerance.min(COULOMB_TOLERANCE)
         * norm(state.scene.gravity().as_ref())
         * state.options.dt;
-    let creeping = motionless_bodies(state, &motion.velocities, creep);
+    let creeping = motionless_bodies(state, velocities, creep);
     if motionless != creeping {
         let islands = Islands::new(contacts, &state.inverse_mass);
         let mut moves = vec![false; motionless.len()];

@@ -112,7 +112,7 @@ impl<S: Moving> World<S> {
         }
         let (problem, motion) = self.solve(&free)?;
         refuse_out_of_bounds(&self.state, &motion.velocities)?;
-        let motionless = motionless_in_step(&self.state, &problem, &motion);
+        let motionless = motionless_in_step(&self.state, &problem, &motion.velocities, motion.unseen);
         let projected = integrate(&mut self.state, &mut self.finder, motion.velocities, motionless);
 
         self.previous.impulses = motion.impulses;
