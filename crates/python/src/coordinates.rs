@@ -2,6 +2,11 @@
 
 use pyo3::prelude::*;
 
+/// A moment or a turn: one number in the plane, about z; three in space.
+pub fn about_axes(value: [f64; 3], in_plane: bool) -> Vec<f64> {
+    if in_plane { vec![value[2]] } else { value.to_vec() }
+}
+
 /// Two numbers in the plane, three in space.
 #[derive(Clone, Copy, IntoPyObject)]
 pub enum Coordinates {

@@ -1,7 +1,7 @@
 //! Loads, gravity and the friction of pairs of a `Scene`.
 
 use crate::{
-    coordinates::Coordinates,
+    coordinates::{Coordinates, about_axes},
     scene::{Scene, raised},
 };
 use drystone::{
@@ -103,10 +103,7 @@ where
     let mut all = Vec::new();
     for body in scene.bodies() {
         for load in body.loads() {
-            let moment = match load.force.as_ref().len() {
-                2 => vec![load.moment[2]],
-                _ => load.moment.to_vec(),
-            };
+            let moment = about_axes(load.moment, load.force.as_ref().len() == 2);
             let at = S::in_world(&body.pose, load.at).into();
             all.push((load.name.clone(), body.name.clone(), load.force.into(), at, moment));
         }

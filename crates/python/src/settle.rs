@@ -3,7 +3,7 @@
 use crate::{
     arrays::matrix,
     contact_forces::Forces,
-    coordinates::Coordinates,
+    coordinates::{Coordinates, about_axes},
     loads::vector,
     scene::{Scene, raised},
     watch::interruptible,
@@ -144,10 +144,7 @@ where
     let mut all = Vec::new();
     for body in scene.bodies() {
         for settlement in body.settlements() {
-            let rotation = match settlement.displacement.as_ref().len() {
-                2 => vec![settlement.rotation[2]],
-                _ => settlement.rotation.to_vec(),
-            };
+            let rotation = about_axes(settlement.rotation, settlement.displacement.as_ref().len() == 2);
             let at = S::in_world(&body.pose, settlement.at).into();
             all.push((body.name.clone(), settlement.displacement.into(), rotation, at));
         }
