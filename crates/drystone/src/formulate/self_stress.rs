@@ -15,16 +15,14 @@ impl Assembly {
     pub(crate) fn squeeze(&self, blocks: &BlockSet) -> (Membership, ConeSolver) {
         let components = self.components();
         let last = components.len() * self.blocks();
-        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
         let opened: Vec<f64> = self.generators().iter().map(|generator| self.opened_by_supports(generator)).collect();
         let largest = opened.iter().fold(f64::MIN_POSITIVE, |most, c| most.max(c.abs()));
-        for (generator, c) in self.generators().iter().zip(&opened) {
-            for wrench in self.wrenches(generator) {
-                for (row, &k) in components.iter().enumerate().filter(|&(_, &k)| wrench.value[k] != 0.0) {
-                    indices.push(components.len() * wrench.block + row);
-                    data.push(wrench.value[k]);
-                }
-            }
+        let (starts, rows, values) = self.compressed(self.generators().iter());
+        let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
+        for (j, c) in opened.iter().enumerate() {
+            let own = starts[j]..starts[j + 1];
+            indices.extend_from_slice(&rows[own.clone()]);
+            data.extend_from_slice(&values[own]);
             indices.push(last);
             data.push(c / largest);
             indptr.push(indices.len());

@@ -166,14 +166,15 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
     /// `s = J a`, no masses, `- J' f - t push = F` and `push' a = push' push`, so that velocities are near one as loads are.
     pub fn of_greatest_push(problem: Scaled<B, D, N>) -> Self {
         let rate = product(&problem.push, &problem.push);
-        let massless = problem.load.len();
-        let mut made = Self { massless, rate, ..Self::new(problem) };
-        made.f.iter_mut().chain(&mut made.s).for_each(|start| *start *= START);
-        made
+        Self { rate, ..Self::without_masses(problem) }
     }
 
     /// Forces that hold the bodies and the motion in which the loads do most work: (2) with `s = J a + offset` and no masses.
     pub fn of_least_energy(problem: Scaled<B, D, N>) -> Self {
+        Self::without_masses(problem)
+    }
+
+    fn without_masses(problem: Scaled<B, D, N>) -> Self {
         let massless = problem.load.len();
         let mut made = Self { massless, ..Self::new(problem) };
         made.f.iter_mut().chain(&mut made.s).for_each(|start| *start *= START);
