@@ -236,9 +236,10 @@ def _least_norm(scene: ds.Scene) -> dict[tuple[str, str], NDArray[np.float64]]:
         ds.scenes.pyramid(4, friction=0.6),
         ds.scenes.pyramid(4, friction=0.3),
         ds.scenes.arch(9),
+        ds.scenes.wall(3, friction=0.5),
         ds.scenes.random_stack(8),
     ],
-    ids=["column", "pyramid", "slippery pyramid", "arch", "random stack"],
+    ids=["column", "pyramid", "slippery pyramid", "arch", "wall", "random stack"],
 )
 def test_the_same_as_by_least_distance_programming(scene: ds.Scene) -> None:
     expected = _least_norm(scene)

@@ -25,7 +25,7 @@ use crate::{
     proof::{accelerations_under, moving},
 };
 use corners::{Allowed, Rows, least_squares};
-use drystone_lcp::interior::{Cone, Layers};
+use drystone_lcp::interior::Layers;
 pub(crate) use face::{Face, faces};
 
 /// Forces below this share of the largest are rounding: none.
@@ -119,67 +119,111 @@ pub(crate) fn least_norm_of(assembly: &Assembly, space: BodySpace<'_>) -> Vec<Co
     }
     let stiffness = faces.iter().flat_map(|face| face.stiffness.iter().copied()).collect();
     let layers = Layers { stiffness, of, jacobian: rows };
-    let found = space.least_norm(&layers);
-    let largest = found.iter().map(|force| length(*force)).fold(0.0, f64::max);
-    let mut forces = vec![[0.0; 3]; contacts.len()];
-    let shared = Shared { in_plane: assembly.in_plane(), rows: &layers.jacobian, found: &found, none: NONE * largest };
-    for face in &faces {
-        let first = face.points[0];
-        if face.points.iter().any(|&point| space.slides(point)) {
-            face.points.iter().for_each(|&point| forces[point] = found[point]);
-            continue;
-        }
-        shared.among_corners(face, space.cone(first), contacts[first].friction, &mut forces);
-    }
+    let shared = Shared { in_plane: assembly.in_plane(), space: &space, contacts: &contacts, layers: &layers };
+    let forces = shared.elastic(&faces).unwrap_or_else(|| shared.within_cones(&faces));
     forces.into_iter().enumerate().map(|(point, force)| space.force(point, force)).collect()
 }
 
 /// What faces bear by the forces at their points, along the points' directions.
 struct Shared<'a> {
     in_plane: bool,
-    /// Of each point on the wrench of its face.
-    rows: &'a [Rows],
-    found: &'a [[f64; 3]],
-    /// Forces up to this are rounding.
-    none: f64,
+    space: &'a BodySpace<'a>,
+    contacts: &'a [&'a Contact],
+    layers: &'a Layers,
 }
 
-impl Shared<'_> {
-    /// Shares what a face bears among its corners: their least squares within the cones; or of those that push aside as far as
-    /// they can along what was found; or, where rounding allows neither, as it was found.
-    fn among_corners(&self, face: &Face, cone: &Cone, friction: f64, forces: &mut [[f64; 3]]) {
-        let size = face.stiffness.len();
-        // Moments in units of the layer's radii of gyration.
-        let unit = |k: usize| if k < size { (face.stiffness[0] / face.stiffness[k]).sqrt() } else { 0.0 };
-        let unit = [0, 1, 2, 3, 4, 5].map(unit);
-        let rows = |point: usize| self.rows[point].map(|row| [0, 1, 2, 3, 4, 5].map(|k| row[k] * unit[k]));
-        let mut wrench = [0.0; 6];
-        for &point in &face.points {
-            for (row, f) in rows(point).iter().zip(&self.found[point]) {
-                (0..6).for_each(|k| wrench[k] += row[k] * f);
+impl<'a> Shared<'a> {
+    /// Where no layer parts or slides. None where the points of some face cannot bear what its layer does then, or not all of its
+    /// cones are left.
+    fn elastic(&self, faces: &[Face]) -> Option<Vec<[f64; 3]>> {
+        if (0..self.contacts.len()).any(|point| self.space.slides(point)) {
+            return None;
+        }
+        let mut wrenches = self.space.problem().elastic(self.layers)?;
+        for (wrench, face) in wrenches.iter_mut().zip(faces) {
+            wrench.iter_mut().zip(units(face)).for_each(|(w, unit)| *w *= unit);
+        }
+        let none = NONE * wrenches.iter().flatten().fold(0.0_f64, |largest, w| largest.max(w.abs()));
+        let mut forces = vec![[0.0; 3]; self.contacts.len()];
+        for (face, wrench) in faces.iter().zip(&wrenches) {
+            if wrench.iter().any(|w| w.abs() > none) {
+                set(&mut forces, &face.corners, self.among_corners(face, wrench)?, none);
             }
         }
-        if wrench.iter().all(|w| w.abs() <= self.none) {
-            return;
+        Some(forces)
+    }
+
+    /// In any case: the corners of a face make up what all its points bear; or all points do, of which those that push aside as far as
+    /// they can do so along what was found; or, where rounding allows neither, as it was found.
+    fn within_cones(&self, faces: &[Face]) -> Vec<[f64; 3]> {
+        let found = self.space.least_norm(self.layers);
+        let none = NONE * found.iter().map(|force| length(*force)).fold(0.0, f64::max);
+        let mut forces = vec![[0.0; 3]; found.len()];
+        for face in faces {
+            let as_found = || face.points.iter().map(|&point| found[point]).collect();
+            if face.points.iter().any(|&point| self.space.slides(point)) {
+                set(&mut forces, &face.points, as_found(), 0.0);
+                continue;
+            }
+            let mut wrench = [0.0; 6];
+            for &point in &face.points {
+                for (row, f) in self.rows(face, point).iter().zip(&found[point]) {
+                    (0..6).for_each(|k| wrench[k] += row[k] * f);
+                }
+            }
+            if wrench.iter().all(|w| w.abs() <= none) {
+                continue;
+            }
+            if let Some(shared) = self.among_corners(face, &wrench) {
+                set(&mut forces, &face.corners, shared, none);
+                continue;
+            }
+            let beside = |&point: &usize| (self.rows(face, point), self.allowed(face).beside(found[point]));
+            let every: Vec<_> = face.points.iter().map(beside).collect();
+            let shared = least_squares(&wrench, &every, face.stiffness.len(), self.directions(face));
+            set(&mut forces, &face.points, shared.unwrap_or_else(as_found), none);
         }
-        let directions = match size {
-            _ if friction == 0.0 => 1,
+        forces
+    }
+
+    /// The least squares of forces at the corners of a face, within their cones, that make up a wrench; None if none do.
+    fn among_corners(&self, face: &Face, wrench: &[f64; 6]) -> Option<Vec<[f64; 3]>> {
+        let allowed = self.allowed(face);
+        let corners: Vec<_> = face.corners.iter().map(|&point| (self.rows(face, point), allowed)).collect();
+        least_squares(wrench, &corners, face.stiffness.len(), self.directions(face))
+    }
+
+    /// Rows of a point on the wrench of its face, moments in units of the layer's radii of gyration.
+    fn rows(&self, face: &Face, point: usize) -> Rows {
+        let units = units(face);
+        self.layers.jacobian[point].map(|row| [0, 1, 2, 3, 4, 5].map(|k| row[k] * units[k]))
+    }
+
+    fn allowed(&self, face: &Face) -> Allowed<'a> {
+        let first = face.points[0];
+        Allowed::of(self.space.cone(first), self.contacts[first].friction, self.in_plane)
+    }
+
+    /// Directions in which points of a face can push.
+    fn directions(&self, face: &Face) -> usize {
+        match face.stiffness.len() {
+            _ if self.contacts[face.points[0]].friction == 0.0 => 1,
             3 => 2,
             _ => 3,
-        };
-        let allowed = Allowed::of(cone, friction, self.in_plane);
-        let corners: Vec<_> = face.corners.iter().map(|&point| (rows(point), allowed)).collect();
-        let beside = |point: usize| (rows(point), allowed.beside(self.found[point]));
-        let (points, shared) = match least_squares(&wrench, &corners, size, directions) {
-            Some(shared) => (&face.corners, shared),
-            None => {
-                let every: Vec<_> = face.points.iter().map(|&point| beside(point)).collect();
-                let as_found = || face.points.iter().map(|&point| self.found[point]).collect();
-                (&face.points, least_squares(&wrench, &every, size, directions).unwrap_or_else(as_found))
-            }
-        };
-        for (&point, force) in points.iter().zip(shared) {
-            forces[point] = if length(force) > self.none { force } else { [0.0; 3] };
         }
+    }
+}
+
+/// Reciprocals of the layer's radii of gyration beside its moments, 1/m; one beside its forces.
+fn units(face: &Face) -> [f64; 6] {
+    let size = face.stiffness.len();
+    let unit = |k: usize| if k < size { (face.stiffness[0] / face.stiffness[k]).sqrt() } else { 0.0 };
+    [0, 1, 2, 3, 4, 5].map(unit)
+}
+
+/// Forces at some points; those up to `none` are rounding.
+fn set(forces: &mut [[f64; 3]], points: &[usize], shared: Vec<[f64; 3]>, none: f64) {
+    for (&point, force) in points.iter().zip(shared) {
+        forces[point] = if length(force) > none { force } else { [0.0; 3] };
     }
 }

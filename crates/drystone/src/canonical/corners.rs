@@ -73,6 +73,9 @@ pub(super) fn least_squares(
     let mut slopes = vec![IDENTITY; corners.len()];
     for _ in 0..STEPS {
         let left = left(wrench, corners, &forces);
+        if !left.iter().all(|x| x.is_finite()) {
+            return None; // where all corners were asked to pull, none gave way
+        }
         if largest(&left) <= ROUNDING * largest(wrench) {
             return Some(forces);
         }
@@ -217,5 +220,37 @@ fn solve(factor: &[[f64; 6]; 6], size: usize, x: &mut [f64; 6]) {
     for i in (0..size).rev() {
         let inner: f64 = (i + 1..size).map(|k| factor[k][i] * x[k]).sum();
         x[i] = (x[i] - inner) / factor[i][i];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rows of a corner of a face in the plane z = 0 about the origin: the normal z, then x and y.
+    fn corner([x, y]: [f64; 2], friction: f64) -> (Rows, Allowed<'static>) {
+        let rows = [[1.0, 0.0, 0.0, 0.0, y, -x], [0.0, 1.0, 0.0, -y, 0.0, 0.0], [0.0, 0.0, 1.0, x, 0.0, 0.0]];
+        (rows, Allowed::Round(friction))
+    }
+
+    fn square(friction: f64) -> Vec<(Rows, Allowed<'static>)> {
+        [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(|at| corner(at, friction)).to_vec()
+    }
+
+    #[test]
+    fn four_corners_bear_alike_what_presses_in_the_middle() {
+        let found = least_squares(&[4.0, 0.4, 0.0, 0.0, 0.0, 0.0], &square(0.5), 6, 3).unwrap();
+        for force in found {
+            (0..3).for_each(|k| assert!((force[k] - [1.0, 0.1, 0.0][k]).abs() < 1e-13));
+        }
+    }
+
+    #[test]
+    fn corners_bear_no_pull_nor_more_aside_than_friction_allows() {
+        for wrench in
+            [[-1.0, 0.0, 0.0, 0.0, 0.0, 0.0], [-0.2, 0.0, 0.0, 0.0, 0.0, 0.03], [1.0, 0.6, 0.0, 0.0, 0.0, 0.0]]
+        {
+            assert_eq!(least_squares(&wrench, &square(0.5), 6, 3), None, "{wrench:?}");
+        }
     }
 }

@@ -58,10 +58,14 @@ impl<const B: usize> Factor<B> {
 impl<const B: usize> BodyMatrix<B> {
     /// Analyses the pattern. None if there is no memory for it.
     pub fn new<const D: usize, const N: usize>(problem: &Scaled<B, D, N>) -> Option<Self> {
-        let bodies = problem.load.len();
-        let place = order(problem)?;
+        Self::between(problem.load.len(), &problem.points)
+    }
+
+    /// The same for points between so many bodies.
+    pub fn between<const D: usize, const N: usize>(bodies: usize, points: &[ScaledPoint<B, D, N>]) -> Option<Self> {
+        let place = order(bodies, points)?;
         let mut below: Vec<Vec<u32>> = vec![Vec::new(); bodies];
-        for point in &problem.points {
+        for point in points {
             for (earlier, later) in pairs(point, &place).flatten() {
                 below[earlier].push(later as u32);
             }
@@ -72,7 +76,7 @@ impl<const B: usize> BodyMatrix<B> {
             below.dedup();
             pattern.push(below);
         }
-        let found = problem.points.iter().flat_map(|point| pairs(point, &place));
+        let found = points.iter().flat_map(|point| pairs(point, &place));
         let between = found.map(|pair| {
             let (earlier, later) = pair?;
             let among = pattern.rows(earlier).binary_search(&(later as u32)).ok()?;
@@ -186,10 +190,11 @@ fn pairs<const B: usize, const D: usize, const N: usize>(
 const ORDERING: usize = 1024;
 
 /// Place of each body in the order of elimination.
-fn order<const B: usize, const D: usize, const N: usize>(problem: &Scaled<B, D, N>) -> Option<Vec<usize>> {
-    let bodies = problem.load.len();
-    let mut pairs: Vec<(usize, usize)> = problem
-        .points
+fn order<const B: usize, const D: usize, const N: usize>(
+    bodies: usize,
+    points: &[ScaledPoint<B, D, N>],
+) -> Option<Vec<usize>> {
+    let mut pairs: Vec<(usize, usize)> = points
         .iter()
         .flat_map(|point| two_of(N).filter_map(|[one, other]| Some((point.body(one)?, point.body(other)?))))
         .flat_map(|(a, b)| [(a, b), (b, a)])

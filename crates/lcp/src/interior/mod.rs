@@ -28,6 +28,7 @@
 mod barrier;
 mod block_cholesky;
 mod blocks;
+mod elastic;
 mod layers;
 mod matrix;
 mod method;

@@ -43,6 +43,12 @@ pub(super) struct ScaledPoint<const B: usize, const D: usize, const N: usize> {
 const NONE: u32 = u32::MAX;
 
 impl<const B: usize, const D: usize, const N: usize> ScaledPoint<B, D, N> {
+    /// Rows between bodies, and no cone.
+    pub fn of_rows(bodies: [Option<usize>; N], jacobian: [[[f64; B]; D]; N]) -> Self {
+        let bodies = bodies.map(|body| body.map_or(NONE, |body| body as u32));
+        Self { bodies, jacobian, first: 0, end: 0, round: false }
+    }
+
     /// Its forces.
     pub fn own(&self) -> std::ops::Range<usize> {
         self.first as usize..self.end as usize
@@ -80,7 +86,7 @@ impl<const B: usize, const D: usize> Scaled<B, D, 3> {
 }
 
 /// `M^-1/2`.
-fn roots<const B: usize>(inverse: &[f64]) -> Vec<[f64; B]> {
+pub(super) fn roots<const B: usize>(inverse: &[f64]) -> Vec<[f64; B]> {
     inverse.chunks_exact(B).map(|body| std::array::from_fn(|k: usize| body[k].sqrt())).collect()
 }
 

@@ -338,6 +338,58 @@ fn forces_of_least_norm_obey_the_conditions_of_optimality() {
     }
 }
 
+/// Random joints, rigid: how a wrench on a layer acts on the two bodies is the same for all points of a pair.
+fn rigid(seed: u64, size: usize, friction: Option<f64>) -> (Gauss, Layers, Vec<[[[f64; 6]; 6]; 2]>) {
+    let mut problem = random(seed, size, 5, 40, friction);
+    let layers = layers(&problem, seed);
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut matrix = || [[0.0; 6]; 6].map(|row: [f64; 6]| row.map(|_| random.random_range(-1.0..1.0)));
+    let joints: Vec<_> = (0..layers.stiffness.len() / size).map(|_| [matrix(), matrix()]).collect();
+    for (index, point) in problem.points.iter_mut().enumerate() {
+        for (jacobian, joint) in point.jacobian.iter_mut().zip(&joints[layers.of[index]]) {
+            let along = |row: &[f64; 6], k: usize| (0..size).map(|j| row[j] * joint[j][k]).sum();
+            let row = |row| std::array::from_fn(|k| if k < size { along(&row, k) } else { 0.0 });
+            *jacobian = layers.jacobian[index].map(row);
+        }
+    }
+    (problem, layers, joints)
+}
+
+/// Of all wrenches with the same effect on the bodies those of elastic layers have the least norm: square, in its sense, to
+/// what any others have more.
+#[test]
+fn layers_that_neither_part_nor_slide_bear_the_least_of_all_wrenches() {
+    for seed in 0..60 {
+        let (size, friction) = [(3, None), (6, None), (6, Some(0.5))][seed as usize % 3];
+        let (mut problem, layers, joints) = rigid(seed, size, friction);
+        let mut random = Pcg64::seed_from_u64(seed + 1);
+        let forces: usize = problem.points.iter().map(|point| point.cone.unknowns()).sum();
+        let any: Vec<f64> = (0..forces).map(|_| random.random_range(-1.0..1.0)).collect();
+        let (bodies, others) = wrenches(&problem, &layers, &any);
+        problem.load = bodies.iter().map(|wrench| -wrench).collect();
+        let elastic = problem.elastic(&layers).expect("every body is held");
+        let mut left = problem.load.clone();
+        let mut of_layer = vec![None; joints.len()];
+        layers.of.iter().zip(&problem.points).for_each(|(&layer, point)| of_layer[layer] = Some(point.bodies));
+        for ((wrench, joint), bodies) in elastic.iter().zip(&joints).zip(&of_layer) {
+            for (joint, body) in joint.iter().zip(bodies.unwrap_or_default()) {
+                let Some(body) = body else { continue };
+                for (row, w) in joint.iter().zip(wrench) {
+                    (0..size).for_each(|k| left[body * size + k] += w * row[k]);
+                }
+            }
+        }
+        assert!(left.iter().all(|left| left.abs() < 1e-9), "seed {seed}: {left:?}");
+        let least: Vec<f64> = elastic.iter().flat_map(|wrench| wrench[..size].to_vec()).collect();
+        let product = |a: &[f64], b: &[f64]| -> f64 {
+            a.iter().zip(b).zip(&layers.stiffness).map(|((a, b), stiffness)| a * b / stiffness).sum()
+        };
+        let norm = product(&others, &others);
+        assert!((product(&others, &least) - product(&least, &least)).abs() < 1e-9 * norm, "seed {seed}");
+        assert!(product(&least, &least) < 0.9 * norm, "seed {seed}");
+    }
+}
+
 #[test]
 fn what_layers_bear_does_not_change_with_points_that_add_no_wrench() {
     for seed in 0..8 {
