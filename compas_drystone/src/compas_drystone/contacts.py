@@ -1,23 +1,30 @@
-"""Contact forces of drystone as contacts of compas_dem, one for each two blocks."""
+"""Contact forces of drystone as contacts of compas_dem, one for each two blocks.
+
+Each has a few points: numbers of a handful are added sooner one by one than as arrays.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from math import atan2, hypot, sqrt
+from typing import TYPE_CHECKING, TypeAlias
 
 import compas.geometry as cg
-import numpy as np
 from compas_dem.interactions import EdgeContact, FrictionContact, VertexContact
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     import drystone as ds
+
+Vector: TypeAlias = Sequence[float]
+"""x, y, z."""
 
 STRAIGHT = 1e-6
 """Points are on a line if they are within this share of their extent of it: ten times the rounding
 of single precision."""
+
+LEVEL = 1e-6
+"""A joint whose normal leans by less, in radians, is level: its x axis is the world's then."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,25 +32,21 @@ class Between:
     """What block u does to block v."""
 
     edge: tuple[int, int]
-    points: NDArray[np.float64]
-    """(n, 3), around the contact; metres."""
-    vectors: NDArray[np.float64]
-    """(n, 3): the forces of u on v there, N, world axes."""
+    points: list[Vector]
+    """Around the contact; metres."""
+    vectors: list[Vector]
+    """The forces of u on v there, N, world axes."""
+    locals: list[Vector]
+    """The same along the frame's x, y and z axes."""
     frame: cg.Frame
     """Its z axis is the normal, from u into v."""
 
-    @property
-    def locals(self) -> NDArray[np.float64]:
-        """(n, 3): the forces along the frame's x, y and z axes."""
-        axes = np.array([list(self.frame.xaxis), list(self.frame.yaxis), list(self.frame.zaxis)])
-        return self.vectors @ axes.T
-
     def data(self) -> FrictionContact | EdgeContact | VertexContact:
         """As compas_dem has it: by how many points there are."""
-        points = [cg.Point(*point) for point in self.points.tolist()]
+        points = [cg.Point(*point) for point in self.points]
         forces = [
             {"c_np": max(n, 0.0), "c_nn": max(-n, 0.0), "c_u": u, "c_v": v}
-            for u, v, n in self.locals.tolist()
+            for u, v, n in self.locals
         ]
         if len(points) == 1:
             return VertexContact(points[0], frame=self.frame, forces=forces)
@@ -57,77 +60,117 @@ def between(
 ) -> Iterator[Between]:
     """The contacts of all pairs, in the order in which they touch. `edge_of` says which of two
     blocks comes first."""
-    names = [int(body.name) for body in scene.bodies]
+    names = [int(name) for name in scene.names]
+    points, normals = forces.points.tolist(), forces.normals.tolist()
+    vectors, pressures = forces.vectors.tolist(), forces.normal_forces.tolist()
     of: dict[tuple[int, int], list[int]] = {}
     for k, (a, b) in enumerate(forces.bodies.tolist()):
         of.setdefault((names[a], names[b]), []).append(k)
-    for (a, b), rows in of.items():
-        edge = edge_of(a, b)
-        sign = 1.0 if edge == (a, b) else -1.0
-        points, vectors = forces.points[rows], sign * forces.vectors[rows]
-        normal = _normal(sign * forces.normals[rows], forces.normal_forces[rows])
-        points, vectors = _merged(points, vectors, scene.contact_tolerance)
-        yield _contact(edge, points, vectors, normal)
+    for pair, rows in of.items():
+        edge = edge_of(*pair)
+        sign = 1.0 if edge == pair else -1.0
+        normal = _normal([normals[k] for k in rows], [pressures[k] for k in rows])
+        places, sums = _merged(
+            [points[k] for k in rows], [vectors[k] for k in rows], scene.contact_tolerance
+        )
+        yield _contact(edge, places, [_times(sign, one) for one in sums], _times(sign, normal))
 
 
-def _normal(normals: NDArray[np.float64], pressures: NDArray[np.float64]) -> NDArray[np.float64]:
+def _normal(normals: list[Vector], pressures: list[float]) -> Vector:
     """That of the plane that bears most; of one of the largest if none bears."""
-    heads, place = np.unique(normals.round(9), axis=0, return_inverse=True)
-    place = place.reshape(-1)
-    bears = np.bincount(place, pressures, minlength=len(heads))
-    best = bears.argmax() if bears.any() else np.bincount(place).argmax()
-    return normals[place == best][0]
+    planes: dict[Vector, list[int]] = {}
+    for k, normal in enumerate(normals):
+        planes.setdefault(tuple(round(x, 9) for x in normal), []).append(k)
+    if len(planes) == 1:
+        return normals[0]
+
+    def bears(plane: Vector) -> tuple[float, int]:
+        return sum(pressures[k] for k in planes[plane]), len(planes[plane])
+
+    return normals[planes[max(sorted(planes), key=bears)][0]]
 
 
 def _merged(
-    points: NDArray[np.float64], vectors: NDArray[np.float64], tolerance: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    points: list[Vector], vectors: list[Vector], tolerance: float
+) -> tuple[list[Vector], list[Vector]]:
     """Forces at one place are one force."""
-    places: list[Any] = []
-    sums: list[Any] = []
+    places: list[Vector] = []
+    sums: list[Vector] = []
     for point, vector in zip(points, vectors, strict=True):
-        apart = [np.abs(point - place).max() for place in places]
-        if apart and min(apart) <= tolerance:
-            sums[int(np.argmin(apart))] += vector
+        apart = [max(map(abs, _minus(point, place))) for place in places]
+        nearest = min(range(len(apart)), key=apart.__getitem__, default=None)
+        if nearest is not None and apart[nearest] <= tolerance:
+            sums[nearest] = [a + b for a, b in zip(sums[nearest], vector, strict=True)]
         else:
             places.append(point)
-            sums.append(vector.copy())
-    return np.array(places), np.array(sums)
+            sums.append(vector)
+    return places, sums
 
 
 def _contact(
-    edge: tuple[int, int],
-    points: NDArray[np.float64],
-    vectors: NDArray[np.float64],
-    normal: NDArray[np.float64],
+    edge: tuple[int, int], points: list[Vector], vectors: list[Vector], normal: Vector
 ) -> Between:
-    middle = points.mean(axis=0)
-    arms = points - middle
-    along = np.linalg.svd(arms)[2][0]
-    if len(points) > 2 and _on_a_line(arms, along):
-        points, vectors = _at_ends(points, vectors, arms @ along)
-    across = np.cross([0.0, 0.0, 1.0], normal)
-    if np.linalg.norm(across) < 1e-6:  # a level joint
-        across = np.array([1.0, 0.0, 0.0])
-    x = across - (across @ normal) * normal
-    x /= np.linalg.norm(x)
-    y = np.cross(normal, x)
+    middle = [sum(along) / len(points) for along in zip(*points, strict=True)]
+    arms = [_minus(point, middle) for point in points]
+    at = _along_a_line(arms) if len(points) > 2 else None
+    if at is not None:
+        points, vectors = _at_ends(points, vectors, at)
+    x, y = _axes(normal)
     if len(points) > 2:
-        turn = np.argsort(np.arctan2(arms @ y, arms @ x), kind="stable")
-        points, vectors = points[turn], vectors[turn]
-    frame = cg.Frame(middle.tolist(), x.tolist(), y.tolist())
-    return Between(edge, points, vectors, frame)
+        angles = [atan2(_dot(arm, y), _dot(arm, x)) for arm in arms]
+        around = sorted(range(len(points)), key=angles.__getitem__)
+        points, vectors = [points[k] for k in around], [vectors[k] for k in around]
+    locals_ = [[_dot(vector, x), _dot(vector, y), _dot(vector, normal)] for vector in vectors]
+    return Between(edge, points, vectors, locals_, cg.Frame(middle, x, y))
 
 
-def _on_a_line(arms: NDArray[np.float64], along: NDArray[np.float64]) -> bool:
-    off = arms - np.outer(arms @ along, along)
-    return bool(np.abs(off).max() <= STRAIGHT * np.ptp(arms @ along))
+def _axes(normal: Vector) -> tuple[Vector, Vector]:
+    """x is level, y square to it and to the normal."""
+    a, b, c = normal
+    x = [-b, a, 0.0]  # z of the world times the normal
+    if hypot(a, b) < LEVEL:
+        x = _minus([1.0, 0.0, 0.0], _times(a, normal))
+    x = _times(1 / sqrt(_dot(x, x)), x)
+    return x, [b * x[2] - c * x[1], c * x[0] - a * x[2], a * x[1] - b * x[0]]
+
+
+def _along_a_line(arms: list[Vector]) -> list[float] | None:
+    """Where points are along the line on which all of them are; None if they are on none."""
+    longest = max(arms, key=lambda arm: _dot(arm, arm))
+    size = sqrt(_dot(longest, longest))
+    if size == 0:
+        return None
+    along = _times(1 / size, longest)
+    at = [_dot(arm, along) for arm in arms]
+    off = max(
+        abs(x - t * u)
+        for arm, t in zip(arms, at, strict=True)
+        for x, u in zip(arm, along, strict=True)
+    )
+    return at if off <= STRAIGHT * (max(at) - min(at)) else None
 
 
 def _at_ends(
-    points: NDArray[np.float64], vectors: NDArray[np.float64], at: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    points: list[Vector], vectors: list[Vector], at: list[float]
+) -> tuple[list[Vector], list[Vector]]:
     """Forces along a line as two at its ends: the same sum and the same moment, by the lever."""
-    low, high = at.argmin(), at.argmax()
-    share = (at - at[low]) / (at[high] - at[low])
-    return points[[low, high]], np.array([(1 - share) @ vectors, share @ vectors])
+    low, high = at.index(min(at)), at.index(max(at))
+    shares = [(t - at[low]) / (at[high] - at[low]) for t in at]
+
+    def total(factors: list[float]) -> Vector:
+        pushes = [_times(factor, vector) for factor, vector in zip(factors, vectors, strict=True)]
+        return [sum(along) for along in zip(*pushes, strict=True)]
+
+    return [points[low], points[high]], [total([1 - share for share in shares]), total(shares)]
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _minus(a: Vector, b: Vector) -> list[float]:
+    return [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+
+
+def _times(factor: float, a: Vector) -> list[float]:
+    return [factor * a[0], factor * a[1], factor * a[2]]

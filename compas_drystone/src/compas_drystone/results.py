@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from math import hypot
+from typing import TYPE_CHECKING, Any
 
 import compas.geometry as cg
 import numpy as np
 from compas_dem.problem import Results
 
-from compas_drystone.contacts import Between, between
+from compas_drystone.contacts import Between, Vector, between
 
 if TYPE_CHECKING:
     from compas_dem.models import BlockModel
@@ -55,36 +56,36 @@ def results_of(
 
 
 def _fill(results: Results, one: Between) -> None:
-    edge, points = one.edge, [cg.Point(*point) for point in one.points.tolist()]
-    contact, locals_ = one.data(), one.locals
-    total = one.vectors.sum(axis=0)
+    contact, count = one.data(), len(one.points)
+    shape = cg.Line(*one.points) if count == 2 else contact.geometry
+    total = _sum(one.vectors)
     told = {
         "contact_data": contact,
-        "contact_points": one.points.tolist(),
-        "contact_geometry": contact.geometry if len(points) == 1 else _shape(points),
+        "contact_points": [list(point) for point in one.points],
+        "contact_geometry": shape,
         "contact_frame": one.frame,
-        "face_contact": len(points) > 2,
-        "edge_contact": len(points) == 2,
-        "point_contact": len(points) == 1,
-        "resultant_global": total.tolist(),
-        "resultant_local": locals_.sum(axis=0).tolist(),
-        "force_magnitude": float(np.linalg.norm(total)),
+        "face_contact": count > 2,
+        "edge_contact": count == 2,
+        "point_contact": count == 1,
+        "resultant_global": total,
+        "resultant_local": _sum(one.locals),
+        "force_magnitude": hypot(*total),
         "force_point": contact.resultantpoint,
-        "force_vector": one.vectors.tolist(),
-        "force_normal": locals_[:, 2].tolist(),
-        "force_tangent1": locals_[:, 0].tolist(),
-        "force_tangent2": locals_[:, 1].tolist(),
-        "nodal_force_magnitudes": np.linalg.norm(one.vectors, axis=1).tolist(),
-        "force_on_node": edge[1],
+        "force_vector": [list(vector) for vector in one.vectors],
+        "force_normal": [n for _, _, n in one.locals],
+        "force_tangent1": [u for u, _, _ in one.locals],
+        "force_tangent2": [v for _, v, _ in one.locals],
+        "nodal_force_magnitudes": [hypot(*vector) for vector in one.vectors],
+        "force_on_node": one.edge[1],
     }
-    if len(points) > 2:
-        told["contact_polygon"] = told["contact_geometry"]
+    if count > 2:
+        told["contact_polygon"] = shape
     for name, value in told.items():
-        results.set_edge(edge, name, value)
+        results.set_edge(one.edge, name, value)
 
 
-def _shape(points: list[cg.Point]) -> cg.Polygon | cg.Line:
-    return cg.Line(*points) if len(points) == 2 else cg.Polygon(points)
+def _sum(vectors: list[Vector]) -> list[float]:
+    return [sum(along) for along in zip(*vectors, strict=True)]
 
 
 def _move(
@@ -95,20 +96,29 @@ def _move(
     to_scale: bool,
 ) -> None:
     blocks = list(model.elements())
-    corners = {str(block.graphnode): _corners(block) for block in blocks}
     moving = {name: np.asarray(values, dtype=float) for name, values in motion.items()}
+    step = _step(blocks, scene, moving, to_scale) if moving else 0.0
+    for block in blocks:
+        name, placed = str(block.graphnode), cg.Transformation()
+        if name in moving:
+            placed = _rigid(step * moving[name], np.array(scene.body(name).centroid))
+        results.set_node(block.graphnode, "transformation", placed)
+
+
+def _step(
+    blocks: list[Any], scene: ds.Scene, moving: Mapping[str, np.ndarray], to_scale: bool
+) -> float:
+    """By how much a motion is multiplied, so that it can be seen."""
+    if to_scale:
+        return 1.0
+    corners = {str(block.graphnode): _corners(block) for block in blocks}
     fastest = 0.0
     for name, values in moving.items():
         reach = np.linalg.norm(corners[name] - np.array(scene.body(name).centroid), axis=1).max()
         turning = np.linalg.norm(values[3:]) * reach
         fastest = max(fastest, float(np.linalg.norm(values[:3])), float(turning))
     diagonal = float(np.linalg.norm(np.ptp(np.concatenate(list(corners.values())), axis=0)))
-    step = 1.0 if to_scale else SHOWN * diagonal / fastest if fastest > 0 else 0.0
-    for block in blocks:
-        name, placed = str(block.graphnode), cg.Transformation()
-        if name in moving:
-            placed = _rigid(step * moving[name], np.array(scene.body(name).centroid))
-        results.set_node(block.graphnode, "transformation", placed)
+    return SHOWN * diagonal / fastest if fastest > 0 else 0.0
 
 
 def _corners(block: object) -> np.ndarray:
