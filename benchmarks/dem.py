@@ -16,7 +16,9 @@ at.
 
 Times are of the processor, the least of a few: RBE's `Problem.solve` with its interfaces known,
 ours reading the model, `check` with contacts found, and again with the forces of least norm, which
-RBE's are too, in another norm.
+RBE's are too, in another norm, as arrays. The last two columns are `Problem.solve` with drystone as
+its solver, model in and `Results` out, and how many times as long `compute_contacts` and
+`Problem.solve` with RBE take, which is as much.
 """
 
 from __future__ import annotations
@@ -47,8 +49,10 @@ from drystone.statics import QuietHighs
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "python"))
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "compas_drystone" / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "compas_drystone" / "src"))
 from reference_models import FRICTION, arch, barrel_vault, problem_of, three_blocks, two_blocks
 
+from compas_drystone import Drystone
 from limit_programs import balance
 
 UNIQUE = 1e-6
@@ -65,6 +69,7 @@ REPEATS = 5
 COLUMNS = (
     *("structure", "blocks", "contacts", "resultants", "unique components", "apart"),
     *("RBE, s", "read, s", "check, s", "with forces, s", "RBE / check", "RBE / with forces"),
+    *("Drystone().solve, s", "all by RBE / Drystone()"),
 )
 
 
@@ -87,7 +92,7 @@ def main() -> int:
 def compared(build: Callable[[], BlockModel]) -> tuple[list[Any], float]:
     """A row, and how far unique components are apart."""
     model = build()
-    model.compute_contacts()
+    _, finding = least(model.compute_contacts, 1)
     problem = problem_of(model)
     problem.set_solver(Solver.RBE())
     with contextlib.redirect_stdout(io.StringIO()):
@@ -96,11 +101,14 @@ def compared(build: Callable[[], BlockModel]) -> tuple[list[Any], float]:
     contacts = len(scene.contacts)
     verdict, alone = least(lambda: ds.check(scene))
     assert verdict.stable
-    forces, with_forces = least(lambda: list(ds.check(scene).forces))
+    (bodies, vectors), with_forces = least(lambda: arrays(ds.check(scene).forces))
+    names = [int(name) for name in scene.names]
     ours: dict[tuple[int, int], Any] = {}
-    for force in forces:
-        pair = int(force.a), int(force.b)
-        ours[pair] = ours.get(pair, 0.0) + np.asarray(force.force)
+    for (a, b), vector in zip(bodies, vectors, strict=True):
+        pair = names[a], names[b]
+        ours[pair] = ours.get(pair, 0.0) + vector
+    problem.set_solver(Drystone())
+    _, within = least(problem.solve)
     weight = sum(9.81 * body.mass for body in scene.bodies if not body.fixed)
     pairs = [pair for pair in ours if pair in set(results.edges()) and contacts <= MOST]
     unique, apart = 0, 0.0
@@ -113,13 +121,19 @@ def compared(build: Callable[[], BlockModel]) -> tuple[list[Any], float]:
     times = [f"{value:.2g}" for value in (rbe, reading, alone, with_forces)]
     ratios = [f"{rbe / value:.0f}" for value in (alone, with_forces)]
     told = [build.__name__, blocks, contacts, len(pairs), unique, f"{apart:.1e}"]
-    return [*told, *times, *ratios], apart
+    whole = [f"{within:.2g}", f"{(finding + rbe) / within:.0f}"]
+    return [*told, *times, *ratios, *whole], apart
 
 
-def least(ask: Callable[[], Any]) -> tuple[Any, float]:
+def arrays(forces: ds.ContactForces) -> tuple[Any, Any]:
+    """Which bodies, as numbers, and the forces."""
+    return forces.bodies, forces.vectors
+
+
+def least(ask: Callable[[], Any], repeats: int = REPEATS) -> tuple[Any, float]:
     """An answer, and the least processor time."""
     answer, best = None, float("inf")
-    for _ in range(REPEATS):
+    for _ in range(repeats):
         begun = time.process_time()
         answer = ask()
         best = min(best, time.process_time() - begun)

@@ -355,3 +355,16 @@ def test_the_kind_says_where_they_are_not_found() -> None:
     assert forces.kind == "any"
     assert forces == verdict.forces
     assert ds.check(ds.scenes.wall(3, 3)).forces.kind == "canonical"
+
+
+def test_an_arch_in_space_is_found_to_stand_with_them() -> None:
+    """Its joints neither part nor slide: no pivot, no iteration, and no other forces are looked
+    for. They are those of the other methods."""
+    scene = ds.scenes.arch(15).extruded(0.4)
+    verdict = ds.check(scene)
+    assert verdict.stable and verdict.certain
+    assert (verdict.pivots, verdict.iterations) == (0, 0)
+    _same(_named(scene, verdict.forces), _named(scene, ds.check(scene, forces="any").forces))
+    _same(_named(scene, verdict.forces), _named(scene, ds.check(scene, method="interior").forces))
+    falls = ds.check(ds.scenes.arch(15, thickness=0.08).extruded(0.4))
+    assert not falls.stable and falls.status == "solved" and falls.iterations > 0

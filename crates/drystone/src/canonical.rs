@@ -38,6 +38,9 @@ const NONE: f64 = 1e-12;
 /// the verdict's own forces give. None where these are not found to the accuracy that a verdict needs, which may be so where it
 /// is borderline or nearly.
 pub fn canonical_forces(assembly: &Assembly, cone: FrictionCone, verdict: &Verdict) -> Option<Vec<ContactForce>> {
+    if verdict.least_norm {
+        return Some(verdict.forces.iter().map(|&(_, force)| force).collect());
+    }
     let (mut blocks, none) = (BlockSet::empty(assembly.blocks()), BlockSet::empty(assembly.blocks()));
     verdict.checked.iter().filter_map(|&body| assembly.block_of(body)).for_each(|block| blocks.insert(block));
     if verdict.stable {
@@ -108,44 +111,60 @@ fn least_norm(
 
 /// The forces of least norm at every point of a problem.
 pub(crate) fn least_norm_of(assembly: &Assembly, space: BodySpace<'_>) -> Vec<ContactForce> {
-    let contacts: Vec<&Contact> = space.contacts().collect();
-    let faces = faces(assembly, &contacts);
-    let (mut of, mut rows) = (vec![0; contacts.len()], vec![[[0.0; 6]; 3]; contacts.len()]);
-    for (layer, face) in faces.iter().enumerate() {
-        for &point in &face.points {
-            of[point] = layer;
-            rows[point] = space.directions(point).map(|direction| face.wrench(direction, contacts[point].point));
-        }
-    }
-    let stiffness = faces.iter().flat_map(|face| face.stiffness.iter().copied()).collect();
-    let layers = Layers { stiffness, of, jacobian: rows };
-    let shared = Shared { in_plane: assembly.in_plane(), space: &space, contacts: &contacts, layers: &layers };
-    let forces = shared.elastic(&faces).unwrap_or_else(|| shared.within_cones(&faces));
-    forces.into_iter().enumerate().map(|(point, force)| space.force(point, force)).collect()
+    let layered = Layered::new(assembly, space);
+    let forces = layered.elastic().unwrap_or_else(|| layered.within_cones());
+    layered.contact_forces(forces)
 }
 
-/// What faces bear by the forces at their points, along the points' directions.
-struct Shared<'a> {
+/// The same where they are found at once, without the cones; None where some face cannot bear what its layer does then. That they
+/// balance the blocks is for the caller to judge.
+pub(crate) fn elastic_forces(assembly: &Assembly, blocks: &BlockSet, cone: FrictionCone) -> Option<Vec<ContactForce>> {
+    let layered = Layered::new(assembly, assembly.body_space(blocks, cone));
+    Some(layered.contact_forces(layered.elastic()?))
+}
+
+/// A problem with layers in its faces. Forces are along the directions of its points.
+struct Layered<'a> {
     in_plane: bool,
-    space: &'a BodySpace<'a>,
-    contacts: &'a [&'a Contact],
-    layers: &'a Layers,
+    space: BodySpace<'a>,
+    contacts: Vec<&'a Contact>,
+    faces: Vec<Face>,
+    layers: Layers,
 }
 
-impl<'a> Shared<'a> {
+impl<'a> Layered<'a> {
+    fn new(assembly: &'a Assembly, space: BodySpace<'a>) -> Self {
+        let contacts: Vec<&Contact> = space.contacts().collect();
+        let faces = faces(assembly, &contacts);
+        let (mut of, mut rows) = (vec![0; contacts.len()], vec![[[0.0; 6]; 3]; contacts.len()]);
+        for (layer, face) in faces.iter().enumerate() {
+            for &point in &face.points {
+                of[point] = layer;
+                rows[point] = space.directions(point).map(|direction| face.wrench(direction, contacts[point].point));
+            }
+        }
+        let stiffness = faces.iter().flat_map(|face| face.stiffness.iter().copied()).collect();
+        let layers = Layers { stiffness, of, jacobian: rows };
+        Self { in_plane: assembly.in_plane(), space, contacts, faces, layers }
+    }
+
+    fn contact_forces(&self, forces: Vec<[f64; 3]>) -> Vec<ContactForce> {
+        forces.into_iter().enumerate().map(|(point, force)| self.space.force(point, force)).collect()
+    }
+
     /// Where no layer parts or slides. None where the points of some face cannot bear what its layer does then, or not all of its
     /// cones are left.
-    fn elastic(&self, faces: &[Face]) -> Option<Vec<[f64; 3]>> {
+    fn elastic(&self) -> Option<Vec<[f64; 3]>> {
         if (0..self.contacts.len()).any(|point| self.space.slides(point)) {
             return None;
         }
-        let mut wrenches = self.space.problem().elastic(self.layers)?;
-        for (wrench, face) in wrenches.iter_mut().zip(faces) {
+        let mut wrenches = self.space.problem().elastic(&self.layers)?;
+        for (wrench, face) in wrenches.iter_mut().zip(&self.faces) {
             wrench.iter_mut().zip(units(face)).for_each(|(w, unit)| *w *= unit);
         }
         let none = NONE * wrenches.iter().flatten().fold(0.0_f64, |largest, w| largest.max(w.abs()));
         let mut forces = vec![[0.0; 3]; self.contacts.len()];
-        for (face, wrench) in faces.iter().zip(&wrenches) {
+        for (face, wrench) in self.faces.iter().zip(&wrenches) {
             if wrench.iter().any(|w| w.abs() > none) {
                 set(&mut forces, &face.corners, self.among_corners(face, wrench)?, none);
             }
@@ -155,11 +174,11 @@ impl<'a> Shared<'a> {
 
     /// In any case: the corners of a face make up what all its points bear; or all points do, of which those that push aside as far as
     /// they can do so along what was found; or, where rounding allows neither, as it was found.
-    fn within_cones(&self, faces: &[Face]) -> Vec<[f64; 3]> {
-        let found = self.space.least_norm(self.layers);
+    fn within_cones(&self) -> Vec<[f64; 3]> {
+        let found = self.space.least_norm(&self.layers);
         let none = NONE * found.iter().map(|force| length(*force)).fold(0.0, f64::max);
         let mut forces = vec![[0.0; 3]; found.len()];
-        for face in faces {
+        for face in &self.faces {
             let as_found = || face.points.iter().map(|&point| found[point]).collect();
             if face.points.iter().any(|&point| self.space.slides(point)) {
                 set(&mut forces, &face.points, as_found(), 0.0);
@@ -199,7 +218,7 @@ impl<'a> Shared<'a> {
         self.layers.jacobian[point].map(|row| [0, 1, 2, 3, 4, 5].map(|k| row[k] * units[k]))
     }
 
-    fn allowed(&self, face: &Face) -> Allowed<'a> {
+    fn allowed(&self, face: &Face) -> Allowed<'_> {
         let first = face.points[0];
         Allowed::of(self.space.cone(first), self.contacts[first].friction, self.in_plane)
     }

@@ -1,6 +1,7 @@
 //! Does it stand, with which contact forces, and if not, what falls?
 
 mod collapse;
+mod elastic;
 mod interior;
 mod takedown;
 
@@ -46,6 +47,8 @@ pub struct Verdict {
     /// The accelerations are those along a virtual motion in which it falls, not those with which it begins to: the
     /// complementarity problem could not be solved to an accuracy that tells.
     pub virtual_motion: bool,
+    /// Whether the forces are those of least norm ([`canonical_forces`](crate::canonical::canonical_forces)) already.
+    pub least_norm: bool,
     /// Of a borderline verdict: how near it is to standing, and to falling.
     pub doubt: Option<Doubt>,
 }
@@ -130,6 +133,11 @@ pub fn check_blocks_while(
     let ladder = Ladder::of(assembly, blocks.len());
     if ladder.takedown_first()
         && let Some(stands) = takedown::check(assembly, blocks, Counts::default())
+    {
+        return Some(stands);
+    }
+    if ladder.elastic_first()
+        && let Some(stands) = elastic::check(assembly, blocks, cone)
     {
         return Some(stands);
     }
@@ -268,6 +276,7 @@ fn verdict(
         iterations: 0,
         residual,
         virtual_motion: false,
+        least_norm: false,
         doubt: None,
     }
 }

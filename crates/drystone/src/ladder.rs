@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! load takedown     every block bears by straight pressure      in proportion to the blocks
+//! elastic layers    none parts or slides                        one factor
 //! pivots            forces within the cones, block by block     quick where most bear upright
 //! interior point    any                                         ten to fifty factors
 //! ```
@@ -70,6 +71,12 @@ impl Ladder {
     /// The same before pivots that have the edges only, which take several of these for a straight force.
     pub fn takedown_before_edges(self) -> bool {
         !self.in_plane() || self.blocks > SMALL
+    }
+
+    /// Whether elastic layers, which take one factor, come before pivots. In the plane these are as quick where they find something; of
+    /// many blocks the interior-point method comes next, of which one factor in vain is a fifth.
+    pub fn elastic_first(self) -> bool {
+        !self.in_plane() && self.is_small()
     }
 
     /// Whether pivots from nothing are made where the takedown, if it was asked, has failed: in space they find little else sooner

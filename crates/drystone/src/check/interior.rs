@@ -80,6 +80,7 @@ pub(super) fn by_interior_point(
         iterations: found.iterations,
         residual,
         virtual_motion: false,
+        least_norm: false,
         doubt,
     })
 }

@@ -2,7 +2,7 @@
 
 use super::Verdict;
 use crate::{
-    formulate::{Assembly, BlockSet},
+    formulate::{Assembly, BlockSet, ContactForce},
     judgement::severity,
     proof::{accelerations_under, moving},
     takedown::Takedown,
@@ -11,7 +11,16 @@ use drystone_lcp::{Counts, Status};
 
 /// That it stands, if every block bears, proved by what shares nothing with the forces' computation.
 pub(super) fn check(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Option<Verdict> {
-    let forces = Takedown::of_bearing(assembly, blocks)?.forces(assembly, blocks)?;
+    standing(assembly, blocks, Takedown::of_bearing(assembly, blocks)?.forces(assembly, blocks)?, spent)
+}
+
+/// That it stands with some forces within its cones; None if these do not balance every block.
+pub(super) fn standing(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    forces: Vec<ContactForce>,
+    spent: Counts,
+) -> Option<Verdict> {
     let under = accelerations_under(assembly, blocks, &forces);
     if !moving(assembly, &under, &forces).is_empty() {
         return None;
@@ -28,6 +37,7 @@ pub(super) fn check(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Op
         counts: spent,
         iterations: 0,
         virtual_motion: false,
+        least_norm: false,
         doubt: None,
     })
 }

@@ -317,8 +317,9 @@ impl<'a> BodySpace<'a> {
     }
 
     /// The contact of each point.
-    pub fn contacts(&self) -> impl Iterator<Item = &Contact> {
-        self.points.iter().map(|point| &self.assembly.contacts()[point.contact])
+    pub fn contacts(&self) -> impl Iterator<Item = &'a Contact> {
+        let contacts = self.assembly.contacts();
+        self.points.iter().map(|point| &contacts[point.contact])
     }
 
     /// The directions of a point's rows.
