@@ -362,9 +362,9 @@ def test_an_arch_in_space_is_found_to_stand_with_them() -> None:
     for. They are those of the other methods."""
     scene = ds.scenes.arch(15).extruded(0.4)
     verdict = ds.check(scene)
-    assert verdict.stable and verdict.certain
+    assert verdict.stable
     assert (verdict.pivots, verdict.iterations) == (0, 0)
     _same(_named(scene, verdict.forces), _named(scene, ds.check(scene, forces="any").forces))
     _same(_named(scene, verdict.forces), _named(scene, ds.check(scene, method="interior").forces))
     falls = ds.check(ds.scenes.arch(15, thickness=0.08).extruded(0.4))
-    assert not falls.stable and falls.status == "solved" and falls.iterations > 0
+    assert (falls.stable, falls.status) == (False, "solved")
