@@ -115,7 +115,7 @@ def test_from_a_script_it_opens_in_the_browser(name: str, monkeypatch: pytest.Mo
     THINGS[name]().show()
     (url,) = opened
     path = Path(urlparse(url).path)
-    has_page = name.split()[0] in ("scene", "plan", "run")
+    has_page = name != "world"
     assert path.name == ("page.html" if has_page else "picture.svg")
     assert path.stat().st_size > 1000
 

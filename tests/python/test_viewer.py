@@ -511,7 +511,8 @@ def test_the_command_line_writes_the_page(cli: Callable[..., Ran], tmp_path: Pat
     ds.scenes.column(5).extruded().save(column)
     assert cli("plan", column, "-o", tmp_path / "space.html").status == 0
     assert _embedded((tmp_path / "space.html").read_text())["dimension"] == 3
-    assert cli("check", "column:5", "-o", tmp_path / "check.html").status == 2
+    assert cli("check", "column:5", "-o", tmp_path / "check.html").status == 0
+    assert _embedded((tmp_path / "check.html").read_text())["frames"]["count"] == 1
 
 
 def test_progress_is_told_and_its_errors_reach_the_caller() -> None:

@@ -12,8 +12,8 @@ export const VERSION = 2;
 export interface Recording {
     format: typeof FORMAT;
     version: typeof VERSION;
-    /** An order of removal, or a motion in time. */
-    kind: "plan" | "run";
+    /** An order of removal; a motion in time; small displacements, enlarged. */
+    kind: "plan" | "run" | "motion";
     /** Of the space that bodies are in. A vector has so many numbers. */
     dimension: 2 | 3;
     title: string;

@@ -3,9 +3,10 @@ import { State } from "./contract.ts";
 import type { Film } from "./film.ts";
 import { counted, figures, measure } from "./format.ts";
 
-/** "Step 3 of 84", "1.25 s · step 300 of 1,200"; nothing where there is but one. */
+/** "Step 3 of 84", "1.25 s · step 300 of 1,200", "40%" of a motion that is enlarged; nothing where there is but one. */
 export function place(film: Film, frame: number): string {
     if (film.count <= 1) return "";
+    if (film.kind === "motion") return `${Math.round((100 * frame) / (film.count - 1))}%`;
     const step = film.step(frame).toLocaleString("en");
     const of = `${step} of ${film.step(Math.max(film.count - 1, 0)).toLocaleString("en")}`;
     if (!film.times) return `Step ${of}`;
@@ -15,7 +16,7 @@ export function place(film: Film, frame: number): string {
 /** The recording's caption, or for a run how much of it is motionless. */
 export function caption(film: Film, frame: number): string {
     const said = film.caption(frame);
-    if (said || film.kind === "plan" || film.count === 0) return said;
+    if (said || film.kind !== "run" || film.count === 0) return said;
     const movable = film.bodies.filter(({ fixed }) => !fixed).length;
     return `${tally(film, frame, State.motionless)} of ${counted(movable, "block")} motionless`;
 }

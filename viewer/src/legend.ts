@@ -9,16 +9,16 @@ export function drawLegend(list: HTMLElement, film: Film): void {
             if (!fixed) states.add(film.state(frame, body));
         });
     }
-    const plan = film.kind === "plan";
+    const run = film.kind === "run";
     const never = film.bodies.some((_, body) => film.state(0, body) === State.absent);
     const words: [State, string, string][] = [
-        [State.present, "present", plan ? "stands" : "moves"],
+        [State.present, "present", run ? "moves" : "stands"],
         [State.motionless, "motionless", "motionless"],
         [State.next, "next", "next to be taken away"],
         [State.falling, "falling", "falls"],
         [State.absent, "absent", never ? "not there" : "taken away"],
     ];
-    const shown = words.filter(([state]) => states.has(state) && (plan || state !== State.absent));
+    const shown = words.filter(([state]) => states.has(state) && (!run || state !== State.absent));
     const items = shown.map(([, kind, text]) => item(kind, text));
     if (film.holds()) items.push(item("held", "held"));
     if (film.loads.length > 0) items.push(item("load", "load"));

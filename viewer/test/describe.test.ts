@@ -46,6 +46,14 @@ test("a run's card says where the body is", async () => {
     assert.equal(caption(film, 1), "1 of 2 blocks motionless");
 });
 
+test("of enlarged displacements it is said how far they have come", async () => {
+    const film = await filmOf({ ...runRecording(), kind: "motion" });
+    assert.equal(film.count, 2);
+    assert.deepEqual([place(film, 0), place(film, 1)], ["0%", "100%"]);
+    assert.equal(caption(film, 1), "");
+    assert.equal(facts(film, 1, 2)[0][1], "stands");
+});
+
 test("numbers for people", () => {
     assert.equal(measure(3.2e-6, "s"), "3.2 µs");
     assert.equal(measure(0.0512, "s"), "51.2 ms");

@@ -11,6 +11,7 @@ from drystone.cli.forces import with_forces_in_time
 from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
+from drystone.common.drawn import Drawn
 from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
 from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
@@ -37,7 +38,7 @@ def run(
 
     With `strong` 0 if it must stand, 1 if it need not, 2 if that was not decided.
     """
-    picture = picture_path(output)
+    picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     if budget is not None and not strong:
@@ -55,7 +56,7 @@ def run(
     )
     if forces is None:
         verdict = with_forces_in_time(verdict)
-    draw(verdict.settled or verdict.escape or verdict, picture)
+    draw(_drawn(verdict, picture), picture)
     if as_json:
         verdict.write_json(sys.stdout)
     else:
@@ -67,6 +68,17 @@ def run(
     if verdict.settled is not None and verdict.settled.status != "solved":
         raise InputError(f"{scene_name}: {verdict.settled}")
     return 0 if (verdict.must_stand if strong else verdict.stable) else 1
+
+
+def _drawn(verdict: Verdict, picture: Path | None) -> Drawn:
+    """What a picture is of. The page of a verdict has its settlement in it."""
+    if verdict.settled is not None:
+        return (
+            verdict
+            if picture is not None and picture.suffix.lower() == ".html"
+            else verdict.settled
+        )
+    return verdict.escape or verdict
 
 
 def _add_settlement(scene: Scene, text: str) -> None:

@@ -31,7 +31,7 @@ def run(
     cone: Cone,
 ) -> int:
     """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
-    picture = picture_path(output)
+    picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     found = limit(

@@ -27,7 +27,7 @@ def run(
     cone: Cone,
 ) -> int:
     """0 if it has a margin, 1 if it falls, 2 if there is no answer."""
-    picture = picture_path(output)
+    picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     found = margin(scene, names, loads=loads, tolerance=tolerance, facets=facets, cone=cone)

@@ -21,7 +21,12 @@ File = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 Picture = Annotated[
-    Path | None, typer.Option("-o", "--output", help="Write a picture, .svg, .pdf or .png.")
+    Path | None,
+    typer.Option(
+        "-o",
+        "--output",
+        help="Write a picture (.svg, .pdf, .png), or a page that plays what moves (.html).",
+    ),
 ]
 Blocks = Annotated[
     str | None, typer.Option(help="Ask about these blocks only: names separated by commas.")

@@ -84,7 +84,7 @@ def svg_if_possible(thing: object) -> str | None:
 
 
 page: Later[Page] = Later()
-"""The page of a scene, a plan or a run."""
+"""The page of a scene, an answer, a plan or a run."""
 
 table: Later[str] = Later()
 """The table of an answer as text, with at most a given number of rows."""

@@ -37,3 +37,14 @@ def quantity(value: float, unit: str, digits: int = 3) -> str:
     size, name = scale_of([value], unit)
     shown = value / size + 0.0  # no minus zero
     return f"{shown:.0f} {name}" if abs(shown) >= 10**digits else f"{shown:.{digits}g} {name}"
+
+
+def round_number(value: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is not above `value`.
+
+    >>> round_number(0.37), round_number(5.0)
+    (0.2, 5.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    step = max(factor for factor in (1.0, 2.0, 5.0) if factor * power <= value * (1 + 1e-9))
+    return step * power

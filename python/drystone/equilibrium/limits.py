@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
-from drystone.common.drawn import DPI, Drawn
+from drystone.common.drawn import DPI, Paged
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, vector
 from drystone.common.text import counted, shorten
@@ -70,7 +70,7 @@ class LimitEnd:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Limit(Drawn):
+class Limit(Paged):
     """The answer of `limit`."""
 
     status: str

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias, cast
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
-from drystone.common.drawn import DPI, Drawn
+from drystone.common.drawn import DPI, Paged
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, number
 from drystone.common.text import counted, shorten
@@ -32,7 +32,7 @@ TOLERANCE = 1e-3
 """How far the boundary may be off, in g, without a choice."""
 
 
-class Margin(Drawn):
+class Margin(Paged):
     """The answer of `margin`."""
 
     __slots__ = (

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
 
 from drystone import _core
 from drystone.common import later
-from drystone.common.drawn import Drawn
+from drystone.common.drawn import Paged
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ContactForces, WhichForces
 from drystone.equilibrium.limits import finite
@@ -46,7 +46,7 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Settled(Drawn):
+class Settled(Paged):
     """How the blocks of a structure follow the settlements of its supports.
 
     Displacements are small: positions of contacts, and their normals, count as they were before.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
-from drystone.common.drawn import Drawn
+from drystone.common.drawn import Paged
 from drystone.common.text import counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
@@ -25,7 +25,7 @@ linear programs leave."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Escape(Drawn):
+class Escape(Paged):
     """A motion, with contact forces, in which blocks at rest can begin to move although they could
     stay: it obeys every law of contact (Newton and Euler, no penetration, no force where contacts
     part, Coulomb's friction against what slides)."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.drawn import Drawn
+from drystone.common.drawn import Paged
 from drystone.common.numbers import name_of
 from drystone.equilibrium.contact_force import CANONICAL, WhichForces, which_forces
 from drystone.equilibrium.limits import Limit, Push, core_push, limit_of
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
 
-class Structure(Drawn):
+class Structure(Paged):
     """A scene of which some blocks are there and others not: does it stand now?
 
     Blocks are added and removed in any order. Between two questions the contacts of the complete

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, TextIO, TypeAlias
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS, ROUND, ConeOfCheck, core_cones
-from drystone.common.drawn import DPI, Drawn
+from drystone.common.drawn import DPI, Paged
 from drystone.common.json_text import Rows, save_json, write_json
 from drystone.common.numbers import names_of, whole
 from drystone.common.text import MOST_ROWS, counted, shorten
@@ -38,7 +38,7 @@ Method: TypeAlias = Literal["equilibrium", "interior", "lcp"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Verdict(Drawn):
+class Verdict(Paged):
     """The answer of `check`."""
 
     stable: bool

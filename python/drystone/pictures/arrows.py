@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.patches import FancyArrow
 from numpy.typing import NDArray
 
-from drystone.common.units import quantity
+from drystone.common.units import quantity, round_number
 from drystone.pictures import style
 from drystone.pictures.canvas import Canvas
 
@@ -48,13 +48,6 @@ def draw_directions(
     """Arrows that say whereto, not how much: unit vectors (n, 2), each of its length (n,)."""
     for tail, vector in zip(tails, directions * lengths[:, None], strict=True):
         _arrow(canvas, tail, vector, colour)
-
-
-def round_number(value: float) -> float:
-    """The largest of 1, 2, 5 times a power of ten that is not above `value`."""
-    power = 10.0 ** np.floor(np.log10(value))
-    step = max(factor for factor in (1.0, 2.0, 5.0) if factor * power <= value * (1 + 1e-9))
-    return float(step * power)
 
 
 def _arrow(

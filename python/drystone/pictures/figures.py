@@ -11,12 +11,12 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 
 from drystone.common.text import counted
+from drystone.equilibrium.mechanism import Moved
 from drystone.equilibrium.verdict import Verdict
 from drystone.pictures import in_space, style
 from drystone.pictures.arrows import draw_arrows, draw_directions
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.loads import draw_loads
-from drystone.pictures.moved import Moved
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.overlaps import draw_overlaps
 from drystone.pictures.shapes import (

@@ -11,12 +11,12 @@ from matplotlib.colors import to_hex
 from numpy.typing import NDArray
 
 from drystone.common.text import counted
+from drystone.equilibrium.mechanism import Moved
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
 from drystone.pictures.axonometry import View
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.loads import draw_loads
-from drystone.pictures.moved import Moved
 from drystone.pictures.order_bar import draw_order_bar
 from drystone.pictures.outline import outline
 from drystone.pictures.shapes import typical_size

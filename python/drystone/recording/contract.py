@@ -101,7 +101,7 @@ class RecordingJson(TypedDict):
 
     format: str
     version: int
-    kind: Literal["plan", "run"]
+    kind: Literal["plan", "run", "motion"]
     dimension: Literal[2, 3]
     title: str
     notes: list[str]

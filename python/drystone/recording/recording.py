@@ -78,7 +78,7 @@ class Recording:
     order of `bodies`.
     """
 
-    kind: Literal["plan", "run"]
+    kind: Literal["plan", "run", "motion"]
     title: str
     bodies: Sequence[Body | Solid]
     """Fixed ones included; solids where gravity has three numbers."""

@@ -1,4 +1,5 @@
-"""Plans, runs and scenes as pages of HTML, which open in a browser from disk, without a network.
+"""Scenes, answers, plans and runs as pages of HTML, which open in a browser from disk, without a
+network.
 
 `plan_page`, `run_page` and `scene_page` make a page; `Page.save` writes it into a file, and a
 notebook shows it. The front end is in `viewer/` of the source tree, the contract between the
@@ -12,8 +13,16 @@ from functools import singledispatch
 from typing import TYPE_CHECKING
 
 from drystone.equilibrium.contact_force import CANONICAL, WhichForces
+from drystone.equilibrium.limits import Limit
+from drystone.equilibrium.margins import Margin
+from drystone.equilibrium.mechanism import at_limit, at_margin
+from drystone.equilibrium.settled import Settled
+from drystone.equilibrium.strong import Escape
+from drystone.equilibrium.structure import Structure
+from drystone.equilibrium.verdict import Verdict
 from drystone.motion.run import Run
 from drystone.planning.answer import Plan
+from drystone.recording.of_motion import moved_recording, settled_recording, verdict_recording
 from drystone.recording.of_plan import Progress, plan_recording
 from drystone.recording.of_run import recording_of_run, run_recording
 from drystone.recording.of_scene import scene_recording
@@ -96,7 +105,7 @@ def run_page(
 
 @singledispatch
 def page_of(thing: object) -> Page:
-    """The page of a scene, a plan or a run; TypeError for what has none."""
+    """The page of a scene, an answer, a plan or a run; TypeError for what has none."""
     raise TypeError(f"there is no page of a {type(thing).__name__}")
 
 
@@ -108,6 +117,36 @@ page_of.register(Plan, plan_page)
 @page_of.register(Run)
 def _(run: Run) -> Page:
     return Page(recording_of_run(run))
+
+
+@page_of.register(Verdict)
+def _(verdict: Verdict) -> Page:
+    return Page(verdict_recording(verdict))
+
+
+@page_of.register(Structure)
+def _(structure: Structure) -> Page:
+    return Page(verdict_recording(structure.check()))
+
+
+@page_of.register(Settled)
+def _(settled: Settled) -> Page:
+    return Page(settled_recording(settled))
+
+
+@page_of.register(Escape)
+def _(escape: Escape) -> Page:
+    return Page(moved_recording(escape))
+
+
+@page_of.register(Limit)
+def _(limit: Limit) -> Page:
+    return Page(moved_recording(at_limit(limit)))
+
+
+@page_of.register(Margin)
+def _(margin: Margin) -> Page:
+    return Page(moved_recording(at_margin(margin)))
 
 
 def show_thing(thing: object) -> None:
