@@ -21,15 +21,16 @@ use crate::{
 
 /// An error so much smaller than the tolerance is not made smaller still.
 pub(crate) const UNSEEN: f64 = 1e-5;
-/// eps: the error beside the largest impulse, but at least and at most this. What is as hard as the first lets a load that redundant contacts cannot
-/// share wander to where one lets go in a step or two.
+/// eps: this share of the error beside the largest impulse, but at least and at most this. What is as hard as the least lets a load that redundant
+/// contacts cannot share wander to where one lets go in a step or two; what is softer than the most, at first, goes nowhere.
+const SHARE: f64 = 0.1;
 const HARD: f64 = 1e-7;
-const SOFT: f64 = 1e-3;
+const SOFT: f64 = 0.1;
 /// Where that leaves an error as large as it was it falls by so much, down to the hardest.
 const HARDER: f64 = 1e-2;
 const HARDEST: f64 = 1e-11;
 /// A step that leaves at most this share of the error is not counted.
-const GOOD: f64 = 0.3;
+const GOOD: f64 = 0.8;
 /// A matrix is kept while each step with it leaves at most this share of the error.
 const KEPT: f64 = 0.1;
 /// From the best state, in at most so many Newton steps that are not good. Keeps what is better. Returns the steps.
@@ -53,7 +54,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
             }
             left -= 1;
             steps += 1;
-            eps = (last / largest(system, &state)).clamp(least, SOFT);
+            eps = (SHARE * last / largest(system, &state)).clamp(least, SOFT);
         }
         let known = best.error;
         if !newton.increment(system, &mut state, eps, made) {

@@ -50,6 +50,8 @@ mod local;
 mod matrix;
 mod method;
 mod newton;
+mod path;
+mod place;
 mod problem;
 mod settings;
 mod softened;

@@ -11,6 +11,8 @@ use faer::{
 
 /// Products of blocks in one factor, about: half a gigabyte says where they go.
 const MOST_TARGETS: usize = 1 << 27;
+/// Share of a pivot block that an update must leave: of less all digits are lost.
+const LOST: f64 = 1e-12;
 
 type Block<const B: usize> = [[f64; B]; B];
 
@@ -32,6 +34,8 @@ pub(crate) struct BlockMatrix<const B: usize> {
     lower: Vec<Block<B>>,
     upper: Vec<Block<B>>,
     right: Vec<[f64; B]>,
+    /// The two vectors of [`Self::update`], zero between its calls.
+    added: [Vec<[f64; B]>; 2],
 }
 
 impl<const B: usize> BlockMatrix<B> {
@@ -78,7 +82,8 @@ impl<const B: usize> BlockMatrix<B> {
         let zero = [[0.0; B]; B];
         let (lower, upper) = (vec![zero; blocks], vec![zero; blocks]);
         let (diagonal, right) = (vec![zero; chunks], vec![[0.0; B]; chunks]);
-        Some(Self { place, starts, later, pair_starts, targets, diagonal, lower, upper, right })
+        let added = [right.clone(), right.clone()];
+        Some(Self { place, starts, later, pair_starts, targets, diagonal, lower, upper, right, added })
     }
 
     /// Makes it the identity.
@@ -134,6 +139,63 @@ impl<const B: usize> BlockMatrix<B> {
             }
         }
         true
+    }
+
+    /// The factors of the matrix with `sigma x y'` added (Bennett, Triangular factors of modified matrices, 1965, by blocks). Each of the
+    /// `sides` is a chunk and its entries of x and of y; blocks between all of them are in the pattern, so that the places that
+    /// change are the chain of parents of the first. False if a pivot block loses its inverse: the factors are of no use then.
+    pub fn update(&mut self, mut sigma: f64, sides: &[(u32, [f64; B], [f64; B])]) -> bool {
+        let mut next = u32::MAX;
+        for (chunk, x, y) in sides {
+            let place = self.place[*chunk as usize];
+            for (added, entries) in self.added.iter_mut().zip([x, y]) {
+                added[place as usize].iter_mut().zip(entries).for_each(|(sum, entry)| *sum += entry);
+            }
+            next = next.min(place);
+        }
+        let mut regular = true;
+        while next != u32::MAX {
+            let j = next as usize;
+            let [x, y] = [0, 1].map(|side| std::mem::replace(&mut self.added[side][j], [0.0; B]));
+            let range = self.starts[j] as usize..self.starts[j + 1] as usize;
+            next = self.later[range.clone()].first().copied().unwrap_or(u32::MAX);
+            let (mut inverse_x, mut y_inverse) = ([0.0; B], [0.0; B]);
+            for a in 0..B {
+                for b in 0..B {
+                    inverse_x[a] += self.diagonal[j][a][b] * x[b];
+                    y_inverse[b] += y[a] * self.diagonal[j][a][b];
+                }
+            }
+            let grown = 1.0 + sigma * y.iter().zip(&inverse_x).map(|(y, x)| y * x).sum::<f64>();
+            regular &= grown.abs() > LOST && grown.is_finite();
+            let less = sigma / grown;
+            for a in 0..B {
+                for b in 0..B {
+                    self.diagonal[j][a][b] -= less * inverse_x[a] * y_inverse[b];
+                }
+            }
+            for at in range {
+                let i = self.later[at] as usize;
+                let (lower, upper) = (&mut self.lower[at], &mut self.upper[at]);
+                let (mut below, beside) = (self.added[0][i], self.added[1][i]);
+                let mut next = beside;
+                for a in 0..B {
+                    for b in 0..B {
+                        below[a] -= lower[a][b] * x[b];
+                        next[b] -= upper[a][b] * y_inverse[a];
+                    }
+                }
+                for a in 0..B {
+                    for b in 0..B {
+                        lower[a][b] += less * below[a] * y_inverse[b];
+                        upper[a][b] += sigma * x[a] * beside[b];
+                    }
+                }
+                (self.added[0][i], self.added[1][i]) = (below, next);
+            }
+            sigma = less;
+        }
+        regular
     }
 
     /// Solves with the factors, in place.
@@ -294,6 +356,54 @@ mod tests {
             matrix.solve(&mut solved);
             for (found, x) in solved.iter().flatten().zip(&x) {
                 assert!((found - x).abs() < 1e-10, "{chunks} chunks: {found} {x}");
+            }
+        }
+    }
+
+    /// Contacts that begin to bear and let go again, far stiffer than the rest: the factors are those of the whole.
+    #[test]
+    fn factors_follow_changes_of_rank_one() {
+        let mut random = Pcg64Mcg::seed_from_u64(9);
+        let chunks = 30_u32;
+        let pairs = (0..chunks - 1).flat_map(|a| [(a, a + 1), (a, (a * 7 + 3) % chunks)]);
+        let pairs: Vec<(u32, u32)> = pairs.filter(|(a, b)| a != b).collect();
+        let [mut matrix, mut anew] = [0, 1].map(|_| BlockMatrix::<3>::new(chunks as usize, &pairs).unwrap());
+        matrix.reset();
+        assert!(matrix.factor());
+        type Side = (u32, [f64; 3], [f64; 3]);
+        let mut borne: Vec<[Side; 2]> = Vec::new();
+        let stiff = 1e3;
+        for round in 0..60 {
+            if round % 3 == 2 {
+                let sides = borne.remove(random.random_range(0..borne.len()));
+                assert!(matrix.update(-stiff, &sides));
+            } else {
+                let (a, b) = pairs[random.random_range(0..pairs.len())];
+                let x = [0, 1].map(|_| [0, 1, 2].map(|_| random.random_range(-1.0..1.0)));
+                let y = x.map(|x| x.map(|x: f64| x + random.random_range(-0.3..0.3)));
+                borne.push([(a, x[0], y[0]), (b, x[1], y[1])]);
+                assert!(matrix.update(stiff, &borne[borne.len() - 1]));
+            }
+            anew.reset();
+            let add = |block: &mut [[f64; 3]; 3], x: &[f64; 3], y: &[f64; 3]| {
+                (0..9).for_each(|k| block[k / 3][k % 3] += stiff * x[k / 3] * y[k % 3]);
+            };
+            for [(a, x, y), (b, v, w)] in &borne {
+                add(anew.own(*a), x, y);
+                add(anew.own(*b), v, w);
+                let (place, upper) = anew.between(*a, *b).unwrap();
+                add(anew.block(place, upper), x, w);
+                add(anew.block(place, !upper), v, y);
+            }
+            assert!(anew.factor());
+            let mut solved: Vec<[f64; 3]> =
+                (0..chunks).map(|_| [0, 1, 2].map(|_| random.random_range(-1.0..1.0))).collect();
+            let mut expected = solved.clone();
+            matrix.solve(&mut solved);
+            anew.solve(&mut expected);
+            let largest = expected.iter().flatten().fold(1.0_f64, |largest, x| largest.max(x.abs()));
+            for (found, x) in solved.iter().flatten().zip(expected.iter().flatten()) {
+                assert!((found - x).abs() < 1e-9 * largest, "{round}: {found} {x}");
             }
         }
     }

@@ -8,6 +8,7 @@ use crate::{
     best::{Best, Goal},
     drift,
     newton::Newton,
+    path,
     settings::Settings,
     solution::Counts,
     sweep::sweep,
@@ -44,7 +45,7 @@ const AT_END: usize = 4;
 const STAYS: std::ops::Range<f64> = 0.8..1.25;
 /// Newton steps from a start that are not good, by the components of an impulse: in the plane, where the law is linear piece by piece, most
 /// islands are solved so. What was measured: docs/theory/step-solver.md.
-const FROM_START: [usize; 2] = [12, 2];
+const FROM_START: [usize; 2] = [8, 2];
 
 /// Solves one island from where `state` is, and leaves the best that was found there. Returns its error.
 pub(crate) fn solve<const B: usize, const D: usize>(
@@ -64,15 +65,24 @@ pub(crate) fn solve<const B: usize, const D: usize>(
         state.clone_from(&best.state);
         return best.error;
     };
-    if state.p.iter().any(|p| p[0] > 0.0) {
+    let warm = state.p.iter().any(|p| p[0] > 0.0);
+    if warm {
         counts.newton_steps += active_set::solve(system, &mut newton, &mut best, goal, FROM_START[D - 2]);
+        // What the active set's method left is nearer to the answer than the start, though it ended nowhere.
+        state.clone_from(&best.state);
     }
-    // What the active set's method left is nearer to the answer than the start, though it ended nowhere.
-    state.clone_from(&best.state);
+    // In the plane all is linear piece by piece, and a way through the pieces leads to the answer; where not, one that begins elsewhere may.
+    if D == 2 && warm && best.error > goal.end {
+        counts.newton_steps += path::solve(system, &mut newton, state, &mut best, (goal, settings.newton_steps));
+    }
     if best.error > goal.tolerance {
         sweeps(system, state, &mut best, (goal.tolerance, SWEEPS), counts);
+        if D == 2 {
+            counts.newton_steps += path::solve(system, &mut newton, state, &mut best, (goal, settings.newton_steps));
+            state.clone_from(&best.state);
+        }
     }
-    if best.error > goal.end {
+    if best.error > if D == 2 { goal.tolerance } else { goal.end } {
         counts.newton_steps += harden(system, state, &mut best, &mut newton, (goal, settings.newton_steps));
     }
     state.clone_from(&best.state);

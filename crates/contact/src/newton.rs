@@ -32,18 +32,18 @@ const SHORT: f64 = 0.07;
 
 /// The softened problem and what its steps need, made once for an island.
 pub(crate) struct Newton<const B: usize, const D: usize> {
-    matrix: BlockMatrix<B>,
+    pub matrix: BlockMatrix<B>,
     /// Of every contact and pair of its sides where the block between their chunks is.
     between: Vec<(u32, bool)>,
     /// Reference impulses, or changes of them, m/s.
     reference: Vec<[f64; D]>,
     /// What each contact does.
-    parts: Vec<Part>,
+    pub parts: Vec<Part>,
     /// The contacts at y.
     pub contacts: Vec<Softened<D>>,
     y: Vec<[f64; B]>,
     /// G there.
-    left: Vec<[f64; B]>,
+    pub left: Vec<[f64; B]>,
     step: Vec<[f64; B]>,
     next: Vec<[f64; B]>,
     begin: Vec<[f64; B]>,
@@ -252,7 +252,7 @@ impl<const B: usize, const D: usize> Newton<B, D> {
     }
 
     /// The matrix of (1).
-    fn assemble(&mut self, system: &System<B, D>, eps: f64) {
+    pub fn assemble(&mut self, system: &System<B, D>, eps: f64) {
         poll(64 * D * B * system.len());
         self.matrix.reset();
         let mut first = 0;

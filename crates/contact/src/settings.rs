@@ -10,7 +10,7 @@ pub struct Settings {
     pub relative_tolerance: f64,
     /// A speed that the caller thinks of as one, m/s: what gravity gives in a step, say.
     pub scale: f64,
-    /// Most Newton steps in one island.
+    /// Most Newton steps in one island; in the plane also half of the changes of contacts on the way through all that they may do.
     pub newton_steps: usize,
 }
 

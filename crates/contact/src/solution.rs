@@ -28,7 +28,7 @@ pub struct Counts {
     pub sweeps: usize,
     /// Solves of one contact.
     pub local_solves: usize,
-    /// Matrices factored.
+    /// Matrices factored, or updated where one contact changed what it does.
     pub newton_steps: usize,
 }
 

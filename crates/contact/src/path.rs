@@ -1,0 +1,220 @@
+//! The way to the answer through all the sets of contacts that stick, slide and part, one change after the other; in the plane.
+//!
+//! Any impulses p and the velocities u that they give obey the law for `p - E` and `u - E` (all in m/s), where E is the error of Alart's and Curnier's
+//! natural map there, `E = p - P(p - u)`. E is then taken away in equal parts, `(1 - t) E`. In the plane all is linear in t as long as no contact
+//! changes what it does, and `z = p - u` tells which one does so first. Then it changes, and the way goes on, forward or backward in t,
+//! until t = 1. So Lemke's method goes through complementary bases, and a parametric active-set method through active sets. Where
+//! Newton's method goes round in circles this arrives.
+//!
+//! Each contact gives way by eps about its impulses at the beginning, so that every set has one solution. A change is one of rank one to the
+//! matrix of Newton's method, whose factors are updated.
+//!
+//! Lemke, Bimatrix equilibrium points and mathematical programming, 1965; Eaves and Scarf, The solution of systems of piecewise linear
+//! equations, 1976.
+
+use crate::{
+    best::{Best, Goal},
+    newton::Newton,
+    place::{Change, Place},
+    system::{State, System},
+};
+use drystone_lcp::interrupt::poll;
+
+/// eps at first, at least and at most; by how much it falls after each way, and grows after one that did not arrive.
+const FIRST: f64 = 1e-2;
+const HARDEST: f64 = 1e-7;
+const SOFTEST: f64 = 0.1;
+const HARDER: f64 = 0.1;
+const SOFTER: f64 = 10.0;
+/// How fast the least eps falls again after one that did not arrive.
+const AGAIN: f64 = 0.3;
+/// Ways that may not arrive, and those in a row that may leave half of the error once that is within the tolerance.
+const FAILED: usize = 3;
+const STALE: usize = 2;
+/// A matrix is kept while each step with it leaves at most this share of the error.
+const KEPT: f64 = 0.1;
+/// Changes on one way at most; of those that arrive few have more than a hundred. On all ways, for each Newton step that is allowed: a change takes half as
+/// long.
+const MOST: usize = 400;
+const FOR_A_STEP: usize = 2;
+/// How far back t may go.
+const BACK: f64 = -10.0;
+/// Updates of the factors after which they are made anew.
+const UPDATES: usize = 40;
+
+/// Follows the way from a state, again with less of eps from where it ended, until the error is small; with the changes that so many Newton steps are worth.
+/// Keeps what is better. Returns the matrices that were factored or updated.
+pub(crate) fn solve<const B: usize, const D: usize>(
+    system: &System<B, D>,
+    newton: &mut Newton<B, D>,
+    start: &State<B, D>,
+    best: &mut Best<B, D>,
+    (goal, most): (Goal, usize),
+) -> usize {
+    let mut state = start.clone();
+    let (mut eps, mut least, mut steps) = (FIRST, HARDEST, 0);
+    let (mut failed, mut stale) = (0, 0);
+    while steps < FOR_A_STEP * most {
+        let mut at = state.clone();
+        if !follow(system, newton, &mut at, eps, &mut steps) {
+            failed += 1;
+            if failed == FAILED {
+                break;
+            }
+            eps = (SOFTER * eps).min(SOFTEST);
+            least = eps;
+            continue;
+        }
+        let known = best.error;
+        let mut error = best.keep(system, &at);
+        state.clone_from(&at);
+        while error > goal.end && newton.increment(system, &mut at, eps, false) {
+            let next = best.keep(system, &at);
+            if next.is_nan() || next > KEPT * error {
+                break;
+            }
+            error = next;
+            state.clone_from(&at);
+        }
+        stale = if best.error > 0.5 * known { stale + 1 } else { 0 };
+        if best.error <= goal.end || (best.error <= goal.tolerance && stale == STALE) {
+            break;
+        }
+        eps = (HARDER * eps).max(least);
+        least = (AGAIN * least).max(HARDEST);
+    }
+    steps
+}
+
+/// Follows the way from a state, whose velocities are those of its impulses, to t = 1, and leaves there what contacts do, and its matrix. Counts the
+/// matrices. False if it does not arrive.
+fn follow<const B: usize, const D: usize>(
+    system: &System<B, D>,
+    newton: &mut Newton<B, D>,
+    state: &mut State<B, D>,
+    eps: f64,
+    steps: &mut usize,
+) -> bool {
+    let mut way = Way::new(system, newton, state, eps);
+    let (mut t, mut direction) = (0.0, 1.0);
+    let mut changed: Option<(usize, usize)> = None;
+    for _ in 0..MOST {
+        *steps += 1;
+        if !way.find_rates() {
+            return false;
+        }
+        if let Some((k, edge)) = changed {
+            // It goes on into what it does now.
+            direction = if way.places[k].edges()[edge].1 < 0.0 { -1.0 } else { 1.0 };
+        }
+        let (length, first) = way.first_change(direction, if direction > 0.0 { 1.0 - t } else { f64::INFINITY });
+        t += direction * length;
+        if t.is_nan() || t < BACK {
+            return false;
+        }
+        way.go(direction * length);
+        let Some((k, edge)) = first else {
+            way.end(state);
+            return true;
+        };
+        changed = Some((k, way.change(k, edge)));
+    }
+    false
+}
+
+/// Where the way is.
+struct Way<'a, const B: usize, const D: usize> {
+    system: &'a System<B, D>,
+    newton: &'a mut Newton<B, D>,
+    eps: f64,
+    places: Vec<Place<D>>,
+    /// How velocities change with t where no contact gives way to them: the right side of Newton's method.
+    push: Vec<[f64; B]>,
+    /// Updates since the matrix was factored.
+    updates: usize,
+    /// What is updated: buffer.
+    sides: Vec<(u32, [f64; B], [f64; B])>,
+}
+
+impl<'a, const B: usize, const D: usize> Way<'a, B, D> {
+    fn new(system: &'a System<B, D>, newton: &'a mut Newton<B, D>, state: &State<B, D>, eps: f64) -> Self {
+        let places = (0..system.len()).map(|k| Place::new(system, state, k, eps)).collect();
+        let push = vec![[0.0; B]; system.free.len()];
+        let mut way = Self { system, newton, eps, places, push, updates: UPDATES, sides: Vec::new() };
+        (0..system.len()).for_each(|k| way.push(k, 1.0));
+        way
+    }
+
+    /// Adds a contact's part of `push`, or takes it away.
+    fn push(&mut self, k: usize, sign: f64) {
+        let weight = sign / self.system.contacts[k].weight;
+        self.system.give(k, &self.places[k].push.map(|p| p * weight), &mut self.push);
+    }
+
+    /// False if the matrix has no inverse.
+    fn find_rates(&mut self) -> bool {
+        let Self { system, newton, eps, places, .. } = self;
+        poll(16 * B * B * system.len());
+        if self.updates == UPDATES {
+            newton.contacts.clear();
+            newton.contacts.extend(places.iter().map(Place::softened));
+            newton.assemble(system, *eps);
+            if !newton.matrix.factor() {
+                return false;
+            }
+            self.updates = 0;
+        }
+        newton.left.clone_from(&self.push);
+        newton.matrix.solve(&mut newton.left);
+        for (k, place) in places.iter_mut().enumerate() {
+            place.find_rate(&system.change(k, &newton.left), *eps);
+        }
+        true
+    }
+
+    /// How far t may go in a direction until a contact changes, or `longest`; which one does so, and at which edge.
+    fn first_change(&self, direction: f64, longest: f64) -> (f64, Option<(usize, usize)>) {
+        let (mut length, mut first) = (longest, None);
+        for (k, place) in self.places.iter().enumerate() {
+            for (edge, (distance, rate)) in place.edges().into_iter().enumerate() {
+                let rate = direction * rate;
+                if rate < 0.0 && distance < -rate * length {
+                    (length, first) = (distance.max(0.0) / -rate, Some((k, edge)));
+                }
+            }
+        }
+        (length, first)
+    }
+
+    fn go(&mut self, length: f64) {
+        for place in &mut self.places {
+            (0..D).for_each(|i| place.z[i] += length * place.rate[i]);
+        }
+    }
+
+    /// A contact crosses an edge of what it does. Returns which edge that is of what it does then.
+    fn change(&mut self, k: usize, edge: usize) -> usize {
+        self.push(k, -1.0);
+        let Change { back, sign, left, right } = self.places[k].cross(edge, self.eps);
+        self.push(k, 1.0);
+        let system = self.system;
+        let along = |rows: &[[f64; B]; D], by: &[f64; D]| -> [f64; B] {
+            std::array::from_fn(|c| (0..D).map(|d| by[d] * rows[d][c]).sum())
+        };
+        let side = |at: usize| (system.chunks[at], along(&system.rows[at], &left), along(&system.rows[at], &right));
+        self.sides.clear();
+        self.sides.extend(system.sides(k).map(side));
+        let updated = self.newton.matrix.update(sign / (self.eps * system.contacts[k].weight), &self.sides);
+        self.updates = if updated { self.updates + 1 } else { UPDATES };
+        back
+    }
+
+    fn end(&mut self, state: &mut State<B, D>) {
+        self.newton.parts.clear();
+        self.newton.parts.extend(self.places.iter().map(|place| place.part));
+        for ((p, place), local) in state.p.iter_mut().zip(&self.places).zip(&self.system.contacts) {
+            *p = place.impulse().map(|p| p / local.weight);
+        }
+        self.system.move_by(state);
+    }
+}
