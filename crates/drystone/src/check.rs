@@ -131,9 +131,7 @@ pub fn check_blocks_while(
     go_on: &mut GoOn<'_>,
 ) -> Option<Verdict> {
     let ladder = Ladder::of(assembly, blocks.len());
-    if ladder.takedown_first()
-        && let Some(stands) = takedown::check(assembly, blocks, Counts::default())
-    {
+    if let Some(stands) = takedown::check(assembly, blocks) {
         return Some(stands);
     }
     if ladder.elastic_first()
@@ -144,15 +142,12 @@ pub fn check_blocks_while(
     if !ladder.pivots_next() {
         return interior::check(assembly, blocks, cone, Counts::default(), go_on);
     }
-    let (found, equilibrium) = equilibrium_while(assembly, blocks, Effort::OfUpright, go_on)?;
+    let (found, equilibrium) = equilibrium_while(assembly, blocks, Effort::FromNothing, go_on)?;
     let spent = equilibrium.counts();
     match found {
         // What stands within pyramids stands within the round cones around them.
         Membership::Inside => Some(held(assembly, blocks, &equilibrium, spent)),
-        Membership::PivotLimit => {
-            let stands = if ladder.takedown_first() { None } else { takedown::check(assembly, blocks, spent) };
-            stands.or_else(|| interior::check(assembly, blocks, cone, spent, go_on))
-        }
+        Membership::PivotLimit => interior::check(assembly, blocks, cone, spent, go_on),
         _ if assembly.is_round(cone) => interior::check(assembly, blocks, cone, spent, go_on),
         _ => by_equilibrium(assembly, blocks, found, &equilibrium, spent, go_on),
     }

@@ -21,14 +21,13 @@ pub(crate) fn equilibrium_while(
     let upward = assembly.upward().into_iter().filter(|&block| blocks.contains(block));
     let (mut placed, mut hard) = (0, false);
     let ladder = |blocks: usize| Ladder::of(assembly, blocks);
-    let only_upright = effort == Effort::OfUpright && !ladder(blocks.len()).is_small();
-    let mut before = |solver: &mut ConeSolver, _, falls: bool| {
-        hard = solver.is_exhausted() || only_upright && falls;
+    let mut before = |solver: &mut ConeSolver, _| {
+        hard = solver.is_exhausted();
         placed += 1;
         match effort {
             Effort::Any => {}
             Effort::OfInteriorPoint => solver.limit_effort(ladder(placed).effort_of_interior_point()),
-            Effort::OfUpright => solver.limit_effort(ladder(placed).effort_of_upright()),
+            Effort::FromNothing => solver.limit_effort(ladder(placed).effort_from_nothing()),
         }
         !hard && go_on(placed - 1)
     };
@@ -47,8 +46,8 @@ pub(crate) enum Effort {
     Any,
     /// Until they take about as long as the interior-point method: [`Membership::PivotLimit`] then.
     OfInteriorPoint,
-    /// As many as what bears upright takes: the interior-point method comes next in any case, and what is made beyond is in vain.
-    OfUpright,
+    /// As many as most small structures take: the interior-point method comes next in any case.
+    FromNothing,
 }
 
 /// [`equilibrium_while`] to the end.
@@ -105,13 +104,13 @@ fn together(blocks: usize) -> usize {
 }
 
 /// Puts blocks into a solver, which has not answered then. It is asked about every block but the last on the way, or about
-/// some at a time where what is there falls in between, as half an arch does. `before` is told each block before it comes,
-/// and whether what is there is known to fall; stops, with false, as soon as that says so.
+/// some at a time where what is there falls in between, as half an arch does. `before` is told each block before it comes;
+/// stops, with false, as soon as that says so.
 pub(crate) fn put_up(
     solver: &mut ConeSolver,
     rows: &BlockRows,
     blocks: impl IntoIterator<Item = usize>,
-    mut before: impl FnMut(&mut ConeSolver, usize, bool) -> bool,
+    mut before: impl FnMut(&mut ConeSolver, usize) -> bool,
 ) -> bool {
     let (mut falls, mut new) = (false, 0);
     for block in blocks {
@@ -119,7 +118,7 @@ pub(crate) fn put_up(
             falls = solver.decide() == Membership::Outside;
             new = 0;
         }
-        if !before(solver, block, falls) {
+        if !before(solver, block) {
             return false;
         }
         solver.add_rows(rows.of(block));

@@ -3,7 +3,7 @@
 //! ```text
 //! load takedown     every block bears by straight pressure      in proportion to the blocks
 //! elastic layers    none parts or slides                        one factor
-//! pivots            forces within the cones, block by block     quick where most bear upright
+//! pivots            forces within the cones, block by block     quick where blocks are few
 //! interior point    any                                         ten to fifty factors
 //! ```
 //!
@@ -20,22 +20,15 @@ pub(crate) struct Ladder {
     blocks: usize,
 }
 
-/// Of more blocks pivots from nothing pay only where what is put up bears upright.
+/// Of more blocks pivots from nothing take longer than the interior-point method, where the takedown has failed.
 const SMALL: usize = 32;
-
-/// Blocks in the plane from which on the memory for the columns of all generators is worth saving: up to there two pivots a block
-/// take as long as its takedown.
-const LARGE_IN_PLANE: usize = 20_000;
 
 /// A structure of few blocks is worth as many pivots as one with so many more.
 const FIRST_BLOCKS: usize = 16;
 
-/// Twice the effort of a block that bears upright in the plane, of which columns take 140 at most, walls and pyramids 320. Arches, and
-/// random stacks from 80 blocks on, take longer than the interior-point method.
-const UPRIGHT_IN_PLANE: usize = 600;
-
-/// In space, where the takedown has failed before.
-const UPRIGHT_IN_SPACE: usize = 8_000;
+/// Effort for each block of pivots from nothing, of those that most small structures take.
+const FROM_NOTHING_IN_PLANE: usize = 600;
+const FROM_NOTHING_IN_SPACE: usize = 8_000;
 
 /// Effort for each block that takes as long as the interior-point method.
 const WORTH_IN_PLANE: usize = 2_000;
@@ -63,36 +56,21 @@ impl Ladder {
         self.size == 3
     }
 
-    /// Whether the takedown comes before pivots that have the axes of the cones among their columns.
-    pub fn takedown_first(self) -> bool {
-        !self.in_plane() || self.blocks >= LARGE_IN_PLANE
-    }
-
-    /// The same before pivots that have the edges only, which take several of these for a straight force.
-    pub fn takedown_before_edges(self) -> bool {
-        !self.in_plane() || self.blocks > SMALL
-    }
-
     /// Whether elastic layers, which take one factor, come before pivots. In the plane these are as quick where they find something; of
     /// many blocks the interior-point method comes next, of which one factor in vain is a fifth.
     pub fn elastic_first(self) -> bool {
-        !self.in_plane() && self.is_small()
+        !self.in_plane() && self.pivots_next()
     }
 
-    /// Whether pivots from nothing are made where the takedown, if it was asked, has failed: in space they find little else sooner
-    /// than the interior-point method does.
+    /// Whether pivots from nothing are made where the takedown has failed: of many blocks they find little sooner than the
+    /// interior-point method does.
     pub fn pivots_next(self) -> bool {
-        self.in_plane() || self.is_small()
-    }
-
-    /// Whether it has so few blocks that pivots go on where what is put up falls on the way.
-    pub fn is_small(self) -> bool {
         self.blocks <= SMALL
     }
 
     /// Effort of pivots from nothing before the interior-point method takes its turn.
-    pub fn effort_of_upright(self) -> usize {
-        let of_a_block = if self.in_plane() { UPRIGHT_IN_PLANE } else { UPRIGHT_IN_SPACE };
+    pub fn effort_from_nothing(self) -> usize {
+        let of_a_block = if self.in_plane() { FROM_NOTHING_IN_PLANE } else { FROM_NOTHING_IN_SPACE };
         of_a_block * (self.blocks + FIRST_BLOCKS)
     }
 

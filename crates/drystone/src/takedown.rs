@@ -18,6 +18,7 @@
 //! held down by what lies on it, does not bear in this sense; other methods decide then. Engineers call the same way of following
 //! loads from the top to the ground a load takedown. docs/theory/load-takedown.md
 
+mod bearings;
 mod stack;
 
 pub(crate) use stack::{Stack, Touching};
@@ -27,7 +28,7 @@ use crate::{
     formulate::{Assembly, BlockSet, Components, ContactForce},
     interrupt::poll,
 };
-use drystone_lcp::cone::{Columns, ConeSolver, Membership};
+use bearings::Bearings;
 
 /// Normal forces at contact points: (point, N).
 type Passed = Vec<(u32, f64)>;
@@ -48,9 +49,6 @@ pub(crate) struct Takedown {
     /// Of each block its bearings, ascending.
     bearings: Vec<Vec<u32>>,
 }
-
-/// Most that rounding may leave of a load: a hundredth of what counts as rest, so that a load may pass many blocks.
-const LEFT: f64 = 1e-11;
 
 /// A bearing's normal rises by more than this share of its length: what stands beside a block bears nothing of it.
 const RISES: f64 = 1e-3;
@@ -111,9 +109,10 @@ impl Takedown {
     fn settle(&mut self, stack: &Stack, block: usize, under: &[u32], on: &[u32]) {
         let bears = |&point: &u32| stack.other(point, block).is_none() || self.through[point as usize].is_some();
         let bearings: Vec<u32> = under.iter().copied().filter(bears).collect();
-        let columns: Vec<&Components> = bearings.iter().map(|&point| stack.pushed(point, block)).collect();
+        let points =
+            Bearings::new(bearings.iter().map(|&point| stack.pushed(point, block)), &stack.units[block][..stack.size]);
         let solve = |load: &Components| -> Option<Passed> {
-            let forces = balanced(&columns, load, &stack.units[block][..stack.size])?;
+            let forces = points.balance(load)?;
             let used = bearings.iter().zip(forces).filter(|(_, force)| *force > 0.0);
             Some(used.map(|(&point, force)| (point, force)).collect())
         };
@@ -188,34 +187,4 @@ fn stacked(touching: &Touching, place: &[usize]) -> Option<(usize, Option<usize>
     let (lower, upper) = if touching.rise > 0.0 { (first, second) } else { (second, first) };
     let upper = upper.filter(|_| touching.rise.abs() > RISES)?;
     lower.is_none_or(|lower| place[lower] < place[upper]).then_some((upper, lower))
-}
-
-/// Magnitudes of columns that balance a load on a block.
-fn balanced(columns: &[&Components], load: &Components, units: &[f64]) -> Option<Vec<f64>> {
-    let size = load.iter().zip(units).fold(0.0_f64, |size, (load, unit)| size.max(load.abs() / unit));
-    if size == 0.0 {
-        return Some(vec![0.0; columns.len()]);
-    }
-    let rows = units.len();
-    let (mut indptr, mut indices, mut data) = (vec![0], Vec::new(), Vec::new());
-    for column in columns {
-        for row in (0..rows).filter(|&row| column[row] != 0.0) {
-            indices.push(row);
-            data.push(column[row]);
-        }
-        indptr.push(indices.len());
-    }
-    let h: Vec<f64> = load[..rows].iter().map(|load| -load / size).collect();
-    let columns_of = Columns::new(rows, &indptr, &indices, &data).ok()?;
-    let mut solver = ConeSolver::new(columns_of, &h, units).ok()?;
-    solver.add_rows(&(0..rows).collect::<Vec<_>>());
-    if solver.solve() != Membership::Inside {
-        return None;
-    }
-    let forces: Vec<f64> = (0..columns.len()).map(|j| solver.f(j) * size).collect();
-    let left = |(row, unit): (usize, &f64)| -> bool {
-        let sum: f64 = columns.iter().zip(&forces).map(|(column, force)| column[row] * force).sum();
-        (sum + load[row]).abs() <= LEFT * size * unit
-    };
-    units.iter().enumerate().all(left).then_some(forces)
 }

@@ -148,7 +148,7 @@ impl<'a> Reuse<'a> {
         self.solver.roll_back(mark);
         self.marks[known] = Some(self.solver.mark()); // what had to be computed is remembered next time
         if known < self.placed.len() {
-            put_up(&mut self.solver, &self.rows, self.placed[known..].iter().copied(), |_, _, _| true);
+            put_up(&mut self.solver, &self.rows, self.placed[known..].iter().copied(), |_, _| true);
             self.solver.decide();
             self.marks[self.placed.len()] = Some(self.solver.mark());
         }

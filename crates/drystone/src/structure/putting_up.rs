@@ -30,7 +30,7 @@ impl PuttingUp<'_> {
             self.put_up_what_stands(blocks, with);
         }
         let Self { rows, solver, history, .. } = self;
-        put_up(solver, rows, blocks.drain(..), |solver, block, _| {
+        put_up(solver, rows, blocks.drain(..), |solver, block| {
             history.push(block, solver);
             true
         });

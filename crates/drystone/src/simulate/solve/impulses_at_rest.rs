@@ -63,23 +63,16 @@ impl<'a, S: Kinematics> AtRest<'a, S> {
     pub fn decide(&self) -> Result<Decision, LcpError> {
         let ladder = Ladder::new(components::<S>(), self.bodies.len());
         let mut work = Counts::default();
-        if ladder.takedown_before_edges()
-            && let Some(start) = self.straight()
-        {
+        if let Some(start) = self.straight() {
             return Ok(Decision { start: Some(start), work });
         }
         if ladder.pivots_next() {
-            let (found, solver) = self.by_pivots(ladder.effort_of_upright())?;
+            let (found, solver) = self.by_pivots(ladder.effort_from_nothing())?;
             work = solver.counts();
             if found != Membership::PivotLimit || !solver.is_exhausted() {
                 let start = (found == Membership::Inside).then(|| self.start(|column| solver.f(column)));
                 return Ok(Decision { start, work });
             }
-        }
-        if !ladder.takedown_before_edges()
-            && let Some(start) = self.straight()
-        {
-            return Ok(Decision { start: Some(start), work });
         }
         let Some((problem, forces)) = self.by_interior_point() else { return Ok(Decision { start: None, work }) };
         let mut solver = self.solver()?;
