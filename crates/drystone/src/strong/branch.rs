@@ -30,6 +30,10 @@ pub(super) struct Branch {
     pub least: Vec<[f64; 2]>,
     /// Of each chain and way: what a face, the fastest first, and all that are faster bear at least together, where it slides.
     pub sums: Vec<[Vec<f64>; 2]>,
+    /// Of each block the least and the greatest virial of the forces on it, and the radius with which these were found; none before
+    /// they are looked for.
+    pub virials: Vec<[f64; 2]>,
+    pub virial_radius: f64,
     /// Where the next program begins: its basis.
     pub basis: Vec<usize>,
 }
@@ -46,6 +50,8 @@ impl Branch {
             no_edge: vec![[false; 2]; faces],
             least: vec![[0.0; 2]; faces],
             sums: Vec::new(),
+            virials: Vec::new(),
+            virial_radius: f64::INFINITY,
             basis: Vec::new(),
         }
     }

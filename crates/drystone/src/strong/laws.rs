@@ -1,5 +1,6 @@
 //! The contact points of a sub-assembly, in units in which free fall has the length one.
 
+use super::hinges::Turned;
 use crate::formulate::{Assembly, BlockSet, ContactForce, FrictionCone};
 use crate::formulate::{BodySpace, Components};
 
@@ -20,6 +21,8 @@ pub(super) struct Laws<'a> {
     pub faces: Vec<Face>,
     /// See [`super::chains`]; none before they are looked for.
     pub chains: Vec<Vec<usize>>,
+    /// See [`super::turned`]; none before it is looked for.
+    pub turned: Option<Turned>,
 }
 
 /// A row of `J M^-1/2`: by (unknown, value).
@@ -62,12 +65,17 @@ impl<'a> Laws<'a> {
             .collect();
         let pairs: Vec<[usize; 2]> = space.contacts().map(|contact| contact.bodies).collect();
         let faces = faces(&points, &pairs);
-        Some(Self { scale: falls, root_mass, load, points, faces, chains: Vec::new(), space })
+        Some(Self { scale: falls, root_mass, load, points, faces, chains: Vec::new(), turned: None, space })
     }
 
     /// Unknown accelerations.
     pub fn size(&self) -> usize {
         self.load.len()
+    }
+
+    /// `M^1/2` of an unknown.
+    pub fn root_mass(&self, k: usize) -> f64 {
+        self.root_mass[k]
     }
 
     /// Accelerations of the blocks, and forces from their normal and tangential components at each point, both in the units of this

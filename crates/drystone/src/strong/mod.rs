@@ -18,10 +18,12 @@ mod answer;
 mod branch;
 mod chains;
 mod escape;
+mod hinges;
 mod laws;
 mod program;
 mod search;
 mod step;
+mod turned;
 
 pub use answer::Strong;
 pub use escape::Escape;

@@ -5,11 +5,11 @@
 //! a' F - sum mu N+ u+ + N- u- >= 0                                                     (2)
 //! ```
 //!
-//! with a, f, e and u not negative but a, and N what is known of the least normal force of a face where it slides. What a branch has
+//! and the same with turned loads (`turned.rs`); with a, f, e and u not negative but a, and N what is known of the least normal force of a face where it slides. What a branch has
 //! settled takes columns out: e of a point without force, one of the two e of a face that slides, u of a way in which none
 //! slides; a_n = 0 is a row without slack.
 
-use super::{branch::Branch, chains::bearings, laws::Laws};
+use super::{branch::Branch, chains::bearings, hinges::Turned, laws::Laws, turned::virial};
 use drystone_lcp::cone::{Columns, ConeSolver, Greatest, Membership};
 
 /// What a program is to find.
@@ -21,6 +21,8 @@ pub(super) enum Objective<'a> {
     Bearing(&'a [usize]),
     /// By how much the second of two faces slides faster along the tangent than the first, at least.
     Lead([usize; 2]),
+    /// The least virial of the forces on a block, times one or minus one.
+    Virial(usize, f64),
 }
 
 /// How a program ended.
@@ -51,11 +53,15 @@ struct Layout {
     size: usize,
     points: usize,
     faces: usize,
+    /// Of the row of turned loads.
+    blocks: usize,
+    hinges: usize,
 }
 
 impl Layout {
     fn of(laws: &Laws) -> Self {
-        Self { size: laws.size(), points: laws.points.len(), faces: laws.faces.len() }
+        let (size, hinges) = (laws.size(), laws.turned.as_ref().map_or(0, |turned| turned.hinges.len()));
+        Self { size, points: laws.points.len(), faces: laws.faces.len(), blocks: size / 3, hinges }
     }
     /// The positive and the negative part of an acceleration.
     fn acceleration(&self, k: usize, side: usize) -> usize {
@@ -76,6 +82,15 @@ impl Layout {
     fn surplus(&self) -> usize {
         3 * self.size + 3 * self.points + 2 * self.faces
     }
+    fn turning(&self, block: usize, side: usize) -> usize {
+        self.surplus() + 1 + 2 * block + side
+    }
+    fn at_hinge(&self, hinge: usize, side: usize) -> usize {
+        self.surplus() + 1 + 2 * self.blocks + 2 * hinge + side
+    }
+    fn turned_surplus(&self) -> usize {
+        self.surplus() + 1 + 2 * self.blocks + 2 * self.hinges
+    }
     // Rows.
     fn box_row(&self, k: usize) -> usize {
         self.size + k
@@ -89,6 +104,21 @@ impl Layout {
     fn power_row(&self) -> usize {
         2 * self.size + self.points + self.faces
     }
+    fn turned_row(&self) -> usize {
+        self.power_row() + 1
+    }
+    fn hinge_row(&self, hinge: usize, side: usize) -> usize {
+        self.turned_row() + 1 + 2 * hinge + side
+    }
+    /// That of the objective, the last if it is not the power.
+    fn objective_row(&self, turned: bool) -> usize {
+        if turned { self.hinge_row(self.hinges, 0) } else { self.power_row() + 1 }
+    }
+}
+
+/// The row of turned loads, once virials are known.
+fn turned_of<'a>(laws: &'a Laws<'_>, branch: &Branch) -> Option<&'a Turned> {
+    laws.turned.as_ref().filter(|_| !branch.virials.is_empty())
 }
 
 /// Columns of one program, with the name that each has in all of them.
@@ -114,7 +144,8 @@ impl Writer {
 /// Solves the program of a branch from its basis.
 pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>) -> Answer {
     let layout = Layout::of(laws);
-    let rows = layout.power_row() + 1 + usize::from(!matches!(objective, Objective::Power));
+    let turned = turned_of(laws, branch).is_some();
+    let rows = layout.objective_row(turned) + usize::from(!matches!(objective, Objective::Power));
     let columns = columns(laws, branch, objective, &layout);
     let mut h = vec![0.0; rows];
     h[..layout.size].copy_from_slice(&laws.load);
@@ -131,12 +162,13 @@ pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>) -> A
     solver.only_in_64_bits();
     solver.limit_effort(EFFORT * rows);
     let sought = match objective {
-        Objective::Power => (layout.power_row(), -1.0),
-        _ => (layout.power_row() + 1, 1.0),
+        Objective::Power if turned => vec![(layout.power_row(), -1.0), (layout.turned_row(), -1.0)],
+        Objective::Power => vec![(layout.power_row(), -1.0)],
+        _ => vec![(layout.objective_row(turned), 1.0)],
     };
-    let Ok(load) = solver.add_load(&[sought]) else { return Answer::Unknown };
+    let Ok(load) = solver.add_load(&sought) else { return Answer::Unknown };
     solver.add_rows(&(0..rows).collect::<Vec<_>>());
-    let mut place = vec![usize::MAX; layout.surplus() + 1];
+    let mut place = vec![usize::MAX; layout.turned_surplus() + 1];
     names.iter().enumerate().for_each(|(column, &name)| place[name] = column);
     solver.start_from(branch.basis.iter().map(|&name| place[name]).filter(|&column| column != usize::MAX));
     match solver.solve() {
@@ -150,8 +182,8 @@ pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>) -> A
 }
 
 fn columns(laws: &Laws, branch: &Branch, objective: Objective<'_>, layout: &Layout) -> Writer {
-    let bearings = bearings(laws, branch);
-    let size = layout.size;
+    let (bearings, turned) = (bearings(laws, branch), turned_of(laws, branch));
+    let (size, objective_row) = (layout.size, layout.objective_row(turned.is_some()));
     let mut own: Vec<Vec<(usize, f64)>> = vec![Vec::new(); size];
     for (k, entries) in own.iter_mut().enumerate() {
         entries.push((k, 1.0));
@@ -164,10 +196,13 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective<'_>, layout: &Layo
         tangent.iter().for_each(|&(k, value)| own[k].push((layout.tangent_row(index), value)));
     }
     (0..size).for_each(|k| own[k].push((layout.power_row(), laws.load[k])));
+    if let Some(turned) = turned {
+        turn_accelerations(laws, turned, layout, &mut own);
+    }
     if let Objective::Lead(faces) = objective {
         for (face, sign) in faces.into_iter().zip([-1.0, 1.0]) {
             let tangent = &laws.points[laws.faces[face].points[0]].tangent;
-            tangent.iter().for_each(|&(k, value)| own[k].push((layout.power_row() + 1, sign * value)));
+            tangent.iter().for_each(|&(k, value)| own[k].push((objective_row, sign * value)));
         }
         own.iter_mut().for_each(|entries| *entries = summed(entries.iter().copied()));
     }
@@ -190,8 +225,15 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective<'_>, layout: &Layo
                 let normal = point.normal.iter().map(|&(k, value)| (k, -value));
                 let slope = sign * point.friction;
                 let tangent = point.tangent.iter().map(move |&(k, value)| (k, -slope * value));
-                let sought = matches!(objective, Objective::Bearing(faces) if face_of[index].is_some_and(|face| faces.contains(&face)));
-                let counted = sought.then_some((layout.power_row() + 1, 1.0));
+                let counted = match objective {
+                    Objective::Bearing(faces) if face_of[index].is_some_and(|face| faces.contains(&face)) => 1.0,
+                    Objective::Virial(block, factor) => {
+                        let [along, across] = virial(laws, index, block);
+                        factor * (along + slope * across)
+                    }
+                    _ => 0.0,
+                };
+                let counted = Some((objective_row, counted));
                 writer.column(layout.edge(index, edge), summed(normal.chain(tangent)).into_iter().chain(counted));
             }
         }
@@ -202,18 +244,57 @@ fn columns(laws: &Laws, branch: &Branch, objective: Objective<'_>, layout: &Layo
     for (index, face) in laws.faces.iter().enumerate() {
         for (way, sign) in [-1.0, 1.0].into_iter().enumerate() {
             if !branch.no_sliding[index][way] {
-                let loss = -face.friction * bearings[index][way];
-                writer.column(
-                    layout.sliding(index, way),
-                    [(layout.tangent_row(index), sign), (layout.power_row(), loss)],
-                );
+                let bears = bearings[index][way];
+                let entries = [(layout.tangent_row(index), sign), (layout.power_row(), -face.friction * bears)];
+                // The sign in that row is the other one: what slides along the tangent takes it from the row's balance.
+                let left = turned.map(|turned| (layout.turned_row(), -(face.friction + sign * turned.factor) * bears));
+                writer.column(layout.sliding(index, way), entries.into_iter().chain(left));
             }
         }
     }
-    if !matches!(objective, Objective::Power) {
+    if turned.is_some() || !matches!(objective, Objective::Power) {
         writer.column(layout.surplus(), [(layout.power_row(), -1.0)]);
     }
+    if let Some(turned) = turned {
+        turning_columns(branch, turned, layout, &mut writer);
+    }
     writer
+}
+
+/// Entries of the accelerations in the row of turned loads, and of the partings at hinges.
+fn turn_accelerations(laws: &Laws, turned: &Turned, layout: &Layout, own: &mut [Vec<(usize, f64)>]) {
+    for (k, entries) in own.iter_mut().enumerate() {
+        entries.push((layout.turned_row(), turned.load(laws, k)));
+    }
+    for (index, hinge) in turned.hinges.iter().enumerate() {
+        for (side, &end) in hinge.ends.iter().enumerate() {
+            for &(k, value) in &laws.points[end].normal {
+                own[k].push((layout.hinge_row(index, side), -value / hinge.width));
+            }
+        }
+    }
+}
+
+/// What turnings are at most each way: the parting at any of the block's hinges over its width, and the turning below.
+fn turning_columns(branch: &Branch, turned: &Turned, layout: &Layout, writer: &mut Writer) {
+    let mut at: Vec<Vec<(usize, f64)>> = vec![Vec::new(); layout.blocks];
+    for (index, hinge) in turned.hinges.iter().enumerate() {
+        at[hinge.block].push((index, 1.0));
+        hinge.below.into_iter().for_each(|(below, ratio)| at[below].push((index, -ratio)));
+    }
+    for (block, hinges) in at.iter().enumerate() {
+        let gains = turned.gains(branch, block);
+        for (side, gain) in gains.into_iter().enumerate() {
+            let bounds = hinges.iter().map(|&(hinge, value)| (layout.hinge_row(hinge, side), value));
+            writer.column(layout.turning(block, side), [(layout.turned_row(), gain)].into_iter().chain(bounds));
+        }
+    }
+    for hinge in 0..layout.hinges {
+        for side in 0..2 {
+            writer.column(layout.at_hinge(hinge, side), [(layout.hinge_row(hinge, side), 1.0)]);
+        }
+    }
+    writer.column(layout.turned_surplus(), [(layout.turned_row(), -1.0)]);
 }
 
 /// One entry a row.

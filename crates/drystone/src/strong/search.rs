@@ -5,8 +5,10 @@ use super::{
     branch::{Branch, Choice, Way},
     chains::{disjoint, fastest_first, rows_of_faces},
     escape::Escape,
+    hinges::Turned,
     laws::{Laws, Row},
     program::{Answer, Found, Objective, solve},
+    turned::virial,
 };
 use crate::{
     equilibrium::GoOn,
@@ -34,6 +36,17 @@ const FALLS_TO: f64 = 0.9;
 const GROWS_BY: f64 = 1.02;
 const NEWS: f64 = 1e-6;
 
+/// Virials are bounded anew when the bound of the accelerations has fallen to this share since.
+const VIRIALS_AGAIN: f64 = 0.7;
+
+/// Turned loads are kept if they leave no more than this share of the power: programs with them take five times as long.
+const WORTH: f64 = 0.75;
+
+/// Factors of turned loads that are tried, as shares of the least friction, to either side; and halvings of the step from one to the next
+/// around the best.
+const FACTORS: i32 = 4;
+const HALVINGS: usize = 2;
+
 /// Rounds of tries in a node.
 const ROUNDS: usize = 50;
 
@@ -60,7 +73,8 @@ struct Search<'a> {
     blocks: &'a BlockSet,
     laws: Laws<'a>,
     programs: usize,
-    /// Whether chains have been looked for: not before the root would be split.
+    /// Whether turned loads have been looked for, and after them chains: not before the root would be split.
+    turned: bool,
     ordered: bool,
 }
 
@@ -70,7 +84,7 @@ pub(super) fn search(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_o
         return Some(Strong { must_stand: Some(true), escape: None, nodes: 0, programs: 0 });
     };
     let root = Branch::root(&laws);
-    let mut search = Search { assembly, blocks, laws, programs: 0, ordered: false };
+    let mut search = Search { assembly, blocks, laws, programs: 0, turned: false, ordered: false };
     let (mut open, mut nodes, mut unknown) = (vec![root], 0, false);
     let mut escape = None;
     while let Some(branch) = open.pop() {
@@ -130,6 +144,10 @@ impl Search<'_> {
                 Bound::Unknown => return Node::Unknown,
                 Bound::Open(power, found) => (power, found),
             };
+            if !branch.virials.is_empty() && branch.radius < VIRIALS_AGAIN * branch.virial_radius {
+                self.bound_virials(&mut branch);
+                continue;
+            }
             let broken = self.broken(&found);
             if broken.is_empty() {
                 return match Escape::new(self.assembly, self.blocks, &self.laws, &found) {
@@ -146,14 +164,92 @@ impl Search<'_> {
                     None => news = true,
                 }
             }
-            if !news && self.ordered {
+            if news {
+                continue;
+            }
+            if self.ordered {
                 break;
             }
-            if !news {
+            if !self.turn(&mut branch, power) {
                 self.order(&mut branch);
             }
         }
         split.map_or(Node::Unknown, Node::Split)
+    }
+
+    /// Looks for turned loads that bound the power of the root further, with virials as they are bounded now. False if there are none.
+    fn turn(&mut self, root: &mut Branch, power: f64) -> bool {
+        let before = self.laws.turned.as_ref().map(|turned| turned.factor);
+        if before.is_none() {
+            if std::mem::replace(&mut self.turned, true) {
+                return false;
+            }
+            self.laws.turned = Turned::new(&self.laws);
+        }
+        if self.laws.turned.is_none() || !self.bound_virials(root) {
+            return false;
+        }
+        let most = self.laws.points.iter().map(|point| point.friction).fold(f64::INFINITY, f64::min);
+        let mut step = most / f64::from(FACTORS);
+        let (mut best, mut least) = (0.0, f64::INFINITY);
+        let mut tried: Vec<f64> = (1..=FACTORS).flat_map(|k| [-step, step].map(|step| f64::from(k) * step)).collect();
+        for _ in 0..=HALVINGS {
+            for factor in tried {
+                let power = self.power_turned(root, factor);
+                if power < least {
+                    (best, least) = (factor, power);
+                }
+            }
+            step *= 0.5;
+            tried = [best - step, best + step].into_iter().filter(|factor| factor.abs() <= most).collect();
+        }
+        let share = if before.is_some() { FALLS_TO } else { WORTH };
+        let better = least < share * power;
+        match (better, before) {
+            (true, _) => self.set_factor(best),
+            (false, Some(before)) => self.set_factor(before),
+            (false, None) => {
+                self.laws.turned = None;
+                root.virials.clear();
+            }
+        }
+        better
+    }
+
+    fn set_factor(&mut self, factor: f64) {
+        if let Some(turned) = &mut self.laws.turned {
+            turned.factor = factor;
+        }
+    }
+
+    /// The most power with loads turned by a factor.
+    fn power_turned(&mut self, branch: &Branch, factor: f64) -> f64 {
+        self.set_factor(factor);
+        match self.solve(branch, Objective::Power) {
+            Answer::None => 0.0,
+            Answer::Best(power, _) => power,
+            Answer::Unknown => f64::INFINITY,
+        }
+    }
+
+    /// Finds the least and the greatest virials in a branch. False if they have none.
+    fn bound_virials(&mut self, branch: &mut Branch) -> bool {
+        branch.virial_radius = branch.radius;
+        let mut virials = Vec::with_capacity(self.laws.size() / 3);
+        for block in 0..self.laws.size() / 3 {
+            let levers = (0..self.laws.points.len()).flat_map(|point| virial(&self.laws, point, block));
+            let (reach, mut bounds) = (levers.fold(0.0_f64, |reach, lever| reach.max(lever.abs())), [0.0; 2]);
+            for (bound, sign) in bounds.iter_mut().zip([1.0, -1.0]) {
+                match self.solve(branch, Objective::Virial(block, sign)) {
+                    Answer::Best(least, _) => *bound = sign * (least - reach * OF_A_BOUND),
+                    Answer::None => return true,
+                    Answer::Unknown => return false,
+                }
+            }
+            virials.push(bounds);
+        }
+        branch.virials = virials;
+        true
     }
 
     /// Finds out which faces of a row slide faster than which, whatever the motion.

@@ -62,7 +62,7 @@ fn what_hangs_between_walls_can_fall() {
 /// The search ends at its budget, and is stopped where somebody asks it to.
 #[test]
 fn a_search_has_an_end() {
-    let scene = scenes::wall(3, 3, 0, 0.7).unwrap().with_gravity([1.7, -9.66]).unwrap();
+    let scene = scenes::wall(3, 3, 0, 0.5).unwrap().with_gravity([3.36, -9.22]).unwrap(); // by 20 degrees
     let found = decided(&scene, 3);
     assert_eq!((found.must_stand, found.nodes), (None, 3));
     let assembly = Assembly::new(&scene).unwrap();
