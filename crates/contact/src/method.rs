@@ -71,7 +71,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
         // What the active set's method left is nearer to the answer than the start, though it ended nowhere.
         state.clone_from(&best.state);
     }
-    // In the plane all is linear piece by piece, and a way through the pieces leads to the answer; where not, one that begins elsewhere may.
+    // In the plane a way through the pieces leads to the answer; where not, one that begins elsewhere may.
     if D == 2 && warm && best.error > goal.end {
         counts.newton_steps += path::solve(system, &mut newton, state, &mut best, (goal, settings.newton_steps));
     }
@@ -120,7 +120,10 @@ fn harden<const B: usize, const D: usize>(
     let (mut reached, mut stale, mut near) = (false, 0, ENDING * tolerance);
     let (mut eps, mut least, mut steps) = (if best.error > tolerance { FIRST } else { NEARLY }, HARDEST, 0);
     let (mut before, mut parts, mut last) = (state.p.clone(), Vec::new(), f64::INFINITY);
-    while steps < most {
+    // Where nothing is left to do a solve takes no step; a problem without a solution would go on so for ever.
+    let (mut solves, most_solves) = (0, most);
+    while steps < most && solves < most_solves {
+        solves += 1;
         let begun = steps;
         before.clone_from(&state.p);
         if !newton.solve(system, state, (eps, BESIDE, if reached { LEFT } else { UNSEEN } * tolerance), &mut steps) {

@@ -1,7 +1,7 @@
 //! Answers that are known.
 
 use crate::common::{departure, in_space, tower};
-use drystone_contact::{Bodies, Settings, Status};
+use drystone_contact::{Bodies, Contact, Settings, Status};
 
 const FALL: f64 = 9.81 / 240.0;
 
@@ -99,6 +99,31 @@ fn a_limit_is_a_status() {
     assert_eq!(solution.status, Status::Limit);
     assert!(solution.error > solution.tolerance && solution.error < FALL);
     assert!(solution.velocities.iter().all(|v| v.is_finite()));
+}
+
+/// A block that has to part from both walls it is jammed between: there is no answer, and the search for one ends.
+#[test]
+fn what_is_jammed_has_no_solution() {
+    for friction in [0.0, 0.5] {
+        let rows = |sign: f64| {
+            let mut rows = [[0.0; 6]; 3];
+            (rows[0][0], rows[1][1]) = (sign, sign);
+            rows
+        };
+        let wall = |sign: f64| Contact {
+            bodies: [None, Some(0)],
+            jacobian: [[[0.0; 6]; 3], rows(sign)],
+            friction,
+            offset: -0.1,
+        };
+        let contacts = vec![wall(1.0), wall(-1.0)];
+        let problem = Bodies { size: 3, inverse_mass: vec![1.0; 3], free: vec![0.0; 3], contacts };
+        for start in [None, Some(&[0.1, 0.0, 0.1, 0.0][..])] {
+            let solution = problem.solve(start, &Settings::default()).unwrap();
+            assert_eq!(solution.status, Status::Limit);
+            assert!((solution.error - 0.1).abs() < 0.05, "{:e}", solution.error);
+        }
+    }
 }
 
 /// Nothing to solve.
