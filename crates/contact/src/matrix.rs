@@ -11,6 +11,8 @@ use faer::{
 
 /// Products of blocks in one factor, about: half a gigabyte says where they go.
 const MOST_TARGETS: usize = 1 << 27;
+/// So few chunks are eliminated as they come: to find an order takes longer than their factor.
+const FEW: usize = 4;
 /// Share of a pivot block that an update must leave: of less all digits are lost.
 const LOST: f64 = 1e-12;
 
@@ -300,8 +302,11 @@ fn inverse<const B: usize>(a: &Block<B>) -> Option<Block<B>> {
     Some(right)
 }
 
-/// Place of each chunk in the order of elimination.
+/// Place of each chunk in the order of elimination. Of [`FEW`] any is as good.
 fn order(chunks: usize, edges: &[(u32, u32)]) -> Option<Vec<u32>> {
+    if chunks <= FEW {
+        return Some((0..chunks as u32).collect());
+    }
     let mut starts = vec![0_usize; chunks + 1];
     edges.iter().for_each(|(column, _)| starts[*column as usize + 1] += 1);
     (0..chunks).for_each(|chunk| starts[chunk + 1] += starts[chunk]);

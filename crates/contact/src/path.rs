@@ -96,28 +96,26 @@ fn follow<const B: usize, const D: usize>(
     steps: &mut usize,
 ) -> bool {
     let mut way = Way::new(system, newton, state, eps);
-    let (mut t, mut direction) = (0.0, 1.0);
+    let (mut t, mut gone) = (0.0, 0.0);
     let mut changed: Option<(usize, usize)> = None;
     for _ in 0..MOST {
         *steps += 1;
-        if !way.find_rates() {
+        if !way.find_direction() {
             return false;
         }
-        if let Some((k, edge)) = changed {
-            // It goes on into what it does now.
-            direction = if way.places[k].edges()[edge].1 < 0.0 { -1.0 } else { 1.0 };
-        }
-        let (length, first) = way.first_change(direction, if direction > 0.0 { 1.0 - t } else { f64::INFINITY });
-        t += direction * length;
+        let forward = changed.is_none_or(|(k, edge)| way.grows(k, edge));
+        let (direction, longest) = if forward { (1.0, 1.0 - t) } else { (-1.0, f64::INFINITY) };
+        let (length, first) = way.first_change(gone, changed.map(|(k, _)| k), direction, longest);
+        gone = direction * length;
+        t += gone;
         if t.is_nan() || t < BACK {
             return false;
         }
-        way.go(direction * length);
         let Some((k, edge)) = first else {
-            way.end(state);
+            way.end(state, gone);
             return true;
         };
-        changed = Some((k, way.change(k, edge)));
+        changed = Some((k, way.change(k, edge, gone)));
     }
     false
 }
@@ -151,8 +149,8 @@ impl<'a, const B: usize, const D: usize> Way<'a, B, D> {
         self.system.give(k, &self.places[k].push.map(|p| p * weight), &mut self.push);
     }
 
-    /// False if the matrix has no inverse.
-    fn find_rates(&mut self) -> bool {
+    /// How velocities change with t. False if the matrix has no inverse.
+    fn find_direction(&mut self) -> bool {
         let Self { system, newton, eps, places, .. } = self;
         poll(16 * B * B * system.len());
         if self.updates == UPDATES {
@@ -166,16 +164,31 @@ impl<'a, const B: usize, const D: usize> Way<'a, B, D> {
         }
         newton.left.clone_from(&self.push);
         newton.matrix.solve(&mut newton.left);
-        for (k, place) in places.iter_mut().enumerate() {
-            place.find_rate(&system.change(k, &newton.left), *eps);
-        }
         true
     }
 
-    /// How far t may go in a direction until a contact changes, or `longest`; which one does so, and at which edge.
-    fn first_change(&self, direction: f64, longest: f64) -> (f64, Option<(usize, usize)>) {
+    /// Whether a contact that has crossed an edge goes on into what it does now as t grows.
+    fn grows(&mut self, k: usize, edge: usize) -> bool {
+        let u = self.system.change(k, &self.newton.left);
+        self.places[k].find_rate(&u, self.eps);
+        self.places[k].edges()[edge].1 >= 0.0
+    }
+
+    /// Goes to where the last direction ended, but for the contact that is there already; then how far t may go in this one until a contact
+    /// changes, or `longest`, which one does so, and at which edge.
+    fn first_change(
+        &mut self,
+        gone: f64,
+        there: Option<usize>,
+        direction: f64,
+        longest: f64,
+    ) -> (f64, Option<(usize, usize)>) {
         let (mut length, mut first) = (longest, None);
-        for (k, place) in self.places.iter().enumerate() {
+        for (k, place) in self.places.iter_mut().enumerate() {
+            if there != Some(k) {
+                place.go(gone);
+            }
+            place.find_rate(&self.system.change(k, &self.newton.left), self.eps);
             for (edge, (distance, rate)) in place.edges().into_iter().enumerate() {
                 let rate = direction * rate;
                 if rate < 0.0 && distance < -rate * length {
@@ -186,14 +199,9 @@ impl<'a, const B: usize, const D: usize> Way<'a, B, D> {
         (length, first)
     }
 
-    fn go(&mut self, length: f64) {
-        for place in &mut self.places {
-            (0..D).for_each(|i| place.z[i] += length * place.rate[i]);
-        }
-    }
-
-    /// A contact crosses an edge of what it does. Returns which edge that is of what it does then.
-    fn change(&mut self, k: usize, edge: usize) -> usize {
+    /// A contact crosses an edge of what it does, which it has come to. Returns which edge that is of what it does then.
+    fn change(&mut self, k: usize, edge: usize, gone: f64) -> usize {
+        self.places[k].go(gone);
         self.push(k, -1.0);
         let Change { back, sign, left, right } = self.places[k].cross(edge, self.eps);
         self.push(k, 1.0);
@@ -209,7 +217,8 @@ impl<'a, const B: usize, const D: usize> Way<'a, B, D> {
         back
     }
 
-    fn end(&mut self, state: &mut State<B, D>) {
+    fn end(&mut self, state: &mut State<B, D>, gone: f64) {
+        self.places.iter_mut().for_each(|place| place.go(gone));
         self.newton.parts.clear();
         self.newton.parts.extend(self.places.iter().map(|place| place.part));
         for ((p, place), local) in state.p.iter_mut().zip(&self.places).zip(&self.system.contacts) {

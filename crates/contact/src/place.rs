@@ -16,8 +16,8 @@ pub(crate) struct Place<const D: usize> {
     /// E, m/s.
     error: [f64; D],
     /// `p - u`, m/s, and how it changes with t.
-    pub z: [f64; D],
-    pub rate: [f64; D],
+    z: [f64; D],
+    rate: [f64; D],
     /// How p changes with t where u does not, m/s.
     pub push: [f64; D],
 }
@@ -74,6 +74,11 @@ impl<const D: usize> Place<D> {
                 self.push[1] += sign * friction * (self.push[0] + e[0]);
             }
         }
+    }
+
+    #[inline(always)]
+    pub fn go(&mut self, t: f64) {
+        (0..D).for_each(|i| self.z[i] += t * self.rate[i]);
     }
 
     /// From the rate of u.
