@@ -17,6 +17,7 @@ sys.path.insert(0, BENCHMARKS)
 import hard_scene_list  # noqa: E402
 import hard_scenes  # noqa: E402
 import heaps  # noqa: E402
+import heaps_in_plane  # noqa: E402
 import judge  # noqa: E402
 import simulation  # noqa: E402
 from simulators import SIMULATORS  # noqa: E402
@@ -150,6 +151,15 @@ def test_a_scene_measured_in_turns(dimension: int) -> None:
 def test_heaps_that_are_timed_obey_the_law() -> None:
     line = heaps.line(heaps.heap(10), 240)
     assert (line[2], len(line)) == ("0 of 240", 5)
+
+
+def test_heaps_in_the_plane_obey_the_law() -> None:
+    """Of 100 boxes too, of which one step in 720 was left to no method."""
+    ours = heaps_in_plane.SIMULATORS["drystone"]
+    lines = [next(heaps_in_plane.measure(boxes, 0.8, [ours])) for boxes in (25, 100)]
+    assert [line["not_exact"] for line in lines] == [0, 0]
+    assert set(lines[0]) == set(heaps_in_plane.COLUMNS)
+    assert 0 < heaps_in_plane.exponent(lines, 0.8, ours.name) < 3
 
 
 def test_hard_scenes_are_judged() -> None:

@@ -1,0 +1,163 @@
+"""Heaps of boxes that tumble in the plane: drystone beside MuJoCo and Rapier.
+
+    .venv/bin/pip install "mujoco<4"      # as far as wanted; Rapier needs cargo
+    .venv/bin/python benchmarks/heaps_in_plane.py [--boxes N ...] [--friction MU ...]
+        [--simulators NAME ...]
+
+Boxes of .3 to .8 m, turned at random, fall at once from a grid half as high as wide: three seconds
+at 240 steps a second, nobody sleeps. The others have their own settings and leave overlaps of
+centimetres. Times are of the fastest of three runs, of one where it takes more than five seconds.
+Results go to results/<machine>/<version>-<date>-heaps-in-plane.csv and to the screen.
+"""
+
+from __future__ import annotations
+
+import threads  # noqa: F401  (before anything that loads NumPy)
+
+# isort: split
+
+import argparse
+import math
+import os
+from collections.abc import Iterator
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+import drystone as ds
+import results
+from hard_scenes import LONG, RATE, ROUNDS
+from simulators import Simulator
+from simulators.drystone import Drystone
+from simulators.mujoco import MuJoCo
+from simulators.rapier import Rapier
+
+SIMULATORS: dict[str, Simulator] = {
+    "drystone": Drystone("full"),
+    "rapier": Rapier(),
+    "mujoco": MuJoCo(),
+}
+BOXES = (25, 50, 100, 200, 400, 800)
+FRICTION = (0.3, 0.5, 0.8)
+SECONDS = 3
+
+SPACING = 1.15
+"""Metres between the middles of boxes: none touches another, however it is turned."""
+
+WIDE = 1.3
+"""Boxes in a layer, beside the root of their number."""
+
+SLOWEST = {"MuJoCo": 200}
+"""Boxes from which on a simulator is left out: with more a step takes MuJoCo 10 ms and longer."""
+
+COLUMNS = (
+    *results.WHERE,
+    "scene",
+    "blocks",
+    "friction",
+    "dt",
+    "steps",
+    "simulator",
+    "simulator_version",
+    "microseconds",
+    "worst_ms",
+    "not_exact",
+    "ratio",
+)
+"""Explained in benchmarks/README.md."""
+
+
+def heap(boxes: int, friction: float, seed: int = 0) -> ds.Scene:
+    """Boxes above a ground, that fall when the first step is made."""
+    random = np.random.default_rng(seed)
+    scene = ds.Scene(friction=friction)
+    scene.add_box((0, -0.5), (120, 1), name="ground", fixed=True)
+    wide = max(3, round(WIDE * math.sqrt(boxes)))
+    for k in range(boxes):
+        layer, i = divmod(k, wide)
+        size, stray = random.uniform(0.3, 0.8, 2), random.uniform(-0.05, 0.05)
+        place = (SPACING * (i - (wide - 1) / 2) + stray, 0.8 + SPACING * layer)
+        scene.add_box(place, tuple(size), angle=random.uniform(-1.5, 1.5), name=f"b{k}")
+    return scene
+
+
+def measure(
+    boxes: int, friction: float, simulators: list[Simulator], steps: int = SECONDS * RATE
+) -> Iterator[dict[str, object]]:
+    """A line for each simulator, drystone first."""
+    scene = heap(boxes, friction)
+    common = results.where(os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan) | {
+        "scene": f"heap of {boxes}",
+        "blocks": boxes,
+        "friction": f"{friction:g}",
+        "dt": f"1/{RATE}",
+        "steps": steps,
+    }
+    first = math.nan
+    for simulator in simulators:
+        if boxes > SLOWEST.get(simulator.name, boxes):
+            continue
+        motion = simulator.run(scene, 1 / RATE, steps, steps)
+        for _ in range(0 if motion.seconds > LONG else ROUNDS - 1):
+            again = simulator.run(scene, 1 / RATE, steps, steps)
+            motion = min(motion, again, key=lambda motion: motion.seconds)
+        ours = isinstance(simulator, Drystone)
+        first = motion.seconds if ours else first
+        yield common | {
+            "simulator": simulator.name,
+            "simulator_version": simulator.version(),
+            "microseconds": results.number(1e6 * motion.seconds / steps, 3),
+            "worst_ms": results.number(1e3 * motion.worst, 3),
+            "not_exact": motion.not_exact if ours else "",
+            "ratio": "" if ours else results.number(first / motion.seconds, 3),
+        }
+
+
+def exponent(lines: list[dict[str, object]], friction: float, name: str) -> float:
+    """Of the number of boxes, in a simulator's time of a step at one friction: least squares."""
+    own = [x for x in lines if (x["friction"], x["simulator"]) == (f"{friction:g}", name)]
+    boxes, times = ([float(str(x[c])) for x in own] for c in ("blocks", "microseconds"))
+    if len(own) < 2:
+        return math.nan
+    return float(np.polyfit(np.log(boxes), np.log(times), 1)[0])
+
+
+def main() -> None:
+    """Measure what the arguments say."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawTextHelpFormatter
+    )
+    parser.add_argument("--boxes", nargs="+", type=int, default=list(BOXES))
+    parser.add_argument("--friction", nargs="+", type=float, default=list(FRICTION))
+    parser.add_argument("--simulators", nargs="+", choices=SIMULATORS, default=list(SIMULATORS))
+    results.add_output(parser)
+    arguments = parser.parse_args()
+    chosen = [SIMULATORS[name] for name in SIMULATORS if name in arguments.simulators]
+    ready = [simulator for simulator in chosen if not simulator.missing()]
+    for simulator in ready:
+        simulator.prepare()
+    base = results.path_in(arguments.output)
+    path = base.with_name(base.name + "-heaps-in-plane.csv")
+    shown = ("blocks", "friction", "simulator", "microseconds", "worst_ms", "not_exact", "ratio")
+    table = Table("boxes", "friction", "", "us a step", "worst, ms", "not exact", "drystone / it")
+    lines: list[dict[str, object]] = []
+    for friction in arguments.friction:
+        for boxes in arguments.boxes:
+            for line in measure(boxes, friction, ready):
+                lines.append(line)
+                table.add_row(*(str(line[column]) for column in shown))
+            results.write_lines(path, COLUMNS, lines)
+    console = Console()
+    console.width = max(console.width, 100)
+    console.print(table)
+    for friction in arguments.friction:
+        grown = ", ".join(f"{s.name} {exponent(lines, friction, s.name):.2f}" for s in ready)
+        console.print(f"exponent of the number of boxes, friction {friction:g}: {grown}")
+    for simulator in set(chosen) - set(ready):
+        console.print(f"{simulator.name}: {simulator.missing()}")
+    console.print(f"wrote {path}", soft_wrap=True)
+
+
+if __name__ == "__main__":
+    main()
