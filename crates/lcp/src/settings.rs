@@ -20,7 +20,8 @@ pub struct Settings {
     /// A solve counts as solved when its residual, in the problem's own scale, is at most this.
     pub residual: f64,
     /// Most pivots in one solve; `None` means 50 n + 1000, in Lemke's method for each of its paths. Principal pivoting ends by itself (it never cycles), but its
-    /// worst case is exponential (Murty 1978).
+    /// worst case is exponential (Murty 1978). With a limit no pivots are made beyond it to prove what rounding leaves in doubt: such a solve
+    /// ends with numerical trouble sooner.
     pub pivot_limit: Option<usize>,
 }
 

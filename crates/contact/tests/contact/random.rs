@@ -107,7 +107,7 @@ fn wall(generator: &mut Pcg64Mcg, size: usize, friction: f64) -> Bodies {
 }
 
 /// Walls in the plane that are hit from above, from the impulses before that. Newton's method on active sets goes round in circles on most of
-/// them, and softened problems, one after the other, left nine of forty.
+/// them, and softened problems, one after the other, left five of forty.
 #[test]
 fn walls_in_the_plane_are_solved_piece_by_piece() {
     let mut generator = Pcg64Mcg::seed_from_u64(17);

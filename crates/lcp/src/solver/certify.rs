@@ -19,7 +19,6 @@ use crate::{
     error::LcpError,
     pivot::lemke_on,
     problem::Problem,
-    settings::Settings,
 };
 use faer::Mat;
 
@@ -27,11 +26,14 @@ impl Solver {
     /// Looks for a certificate among all vectors that M maps to zero, N the basis of these: the projection y of -q onto the cone
     /// of those that are not negative. By Moreau's theorem `q'y = -y'y`, so there is none if y = 0. It is `y = N N' (x - q)`
     /// where x >= 0 and y >= 0 are complementary: a problem with the matrix of a projection, whatever M is.
-    /// True if a clear one was found, and kept.
+    /// True if a clear one was found, and kept. Not looked for where the caller limits the pivots: those for it would be beyond.
     ///
     /// # Errors
     /// [`LcpError::VectorNotFinite`], if scaling made an entry too large.
     pub(super) fn certify_in_null_space(&mut self) -> Result<bool, LcpError> {
+        if self.settings.pivot_limit.is_some() {
+            return Ok(false);
+        }
         let rows = self.rows();
         let Some(null) = self.null_space(&rows).filter(|null| null.ncols() > 0) else { return Ok(false) };
         let q = Mat::from_fn(rows.len(), 1, |i, _| self.load.scaled[rows[i]]);
@@ -42,7 +44,7 @@ impl Solver {
             .map(|(i, j)| projection[(i, j)])
             .collect();
         let problem = Problem::from_dense(&entries, (0..rows.len()).map(|i| -image[(i, 0)]).collect())?;
-        let found = lemke_on(&problem, &Settings { pivot_limit: None, ..self.settings.clone() })?;
+        let found = lemke_on(&problem, &self.settings)?;
         let mut y = vec![0.0; self.z.len()];
         rows.iter().zip(found.w.iter().zip(&found.z)).filter(|(_, (w, z))| w > z).for_each(|(&i, (&w, _))| y[i] = w);
         Ok(self.take_certificate(&y))
