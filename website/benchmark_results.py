@@ -130,6 +130,22 @@ def _hard(every: Iterable[Row]) -> tuple[list[str], list[list[str]]]:
     return ["scene", "blocks", "should fall", *names], lines
 
 
+def _heaps(every: Iterable[Row]) -> tuple[list[str], list[list[str]]]:
+    """At friction .5 by number of boxes: a step, the worst, those not exact; beside others."""
+    every = [row for row in every if row["friction"] == "0.5"]
+    peers = list(dict.fromkeys(row["simulator"] for row in every if row["ratio"]))
+    lines = []
+    for boxes in dict.fromkeys(row["blocks"] for row in every):
+        own = {row["simulator"]: row for row in every if row["blocks"] == boxes}
+        first = next(row for row in own.values() if not row["ratio"])
+        step = float(format(float(first["microseconds"]), ".3g"))
+        line = [boxes, f"{step:g} µs", f"{first['worst_ms']} ms"]
+        line.append(f"{first['not_exact']} of {first['steps']}")
+        lines.append(line + [_times(own.get(peer), "ratio") for peer in peers])
+    head = [f"drystone / {peer}" for peer in peers]
+    return ["boxes", "drystone, a step", "worst", "not exact", *head], lines
+
+
 def _of_hard(row: Row) -> str:
     if not row["microseconds"]:
         return "-"
@@ -142,6 +158,7 @@ TABLES: dict[str, tuple[str, Callable[[Iterable[Row]], tuple[list[str], list[lis
     "sequences": ("add", _sequences),
     "steps": ("simulation", _steps),
     "hard": ("hard-scenes", _hard),
+    "heaps": ("heaps-in-plane", _heaps),
     "verdicts": ("cold", _verdicts),
 }
 """Name on the page, kind of file, and what makes the table."""
