@@ -335,6 +335,7 @@ def test_pictures_and_the_command_line(cli: Cli, tmp_path: Path) -> None:
     ran = cli("limit", "column:3,friction=1", "--push", "2:1,0", "--json")
     assert ran.status == 0
     assert json.loads(ran.out)["factor"] == pytest.approx(G * 2 / 3)
+    assert "give --push" in cli("limit", "column:3").err
     assert cli("limit", "column:3", "--push", "2=1,0").status == 2
     assert cli("limit", "column:3", "--push", "2:1,x").status == 2
     assert cli("limit", "column:3", "--push", "7:1,0").status == 2

@@ -31,6 +31,8 @@ def run(
     cone: Cone,
 ) -> int:
     """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
+    if not push and gravity is None:
+        raise InputError("nothing pushes: give --push, as 7:100,0, or --gravity, as 9.81,0")
     picture = picture_path(output, ".html")
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
