@@ -18,6 +18,8 @@ Module = tuple[str, ...]
 _TEST_ITEM = re.compile(r"#\[cfg\(test\)\]\s*(?:#\[[^\]]*\]\s*)*")
 _USE = re.compile(r"\b(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);")
 _PATH = re.compile(r"\b(?:crate|super|self)(?:::\w+)+")
+_OF_CHILD = re.compile(r"(?<![\w:])(?!crate\b|super\b|self\b)\w+(?:::\w+)+")
+"""What a file says of a module below it, without a `use`."""
 _DEFINES = r"\b(?:struct|enum|trait|fn|const|static|type|union|macro_rules!)\s+{}\b"
 
 
@@ -56,7 +58,9 @@ class Crate:
         names = [
             path for public, tree in _USE.findall(text) if not public for path in _expand(tree)
         ]
-        names += [match.split("::") for match in _PATH.findall(_USE.sub("", text))]
+        rest = _USE.sub("", text)
+        names += [match.split("::") for match in _PATH.findall(rest)]
+        names += [match.split("::") for match in _OF_CHILD.findall(rest)]
         return self._begun(module, names)
 
     def _reexported(self, module: Module) -> list[tuple[Module, Module]]:

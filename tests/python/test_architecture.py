@@ -115,17 +115,19 @@ def test_no_circle_of_uses_in_rust() -> None:
 
 
 def test_circles_in_rust_are_seen(tmp_path: Path) -> None:
-    """Through a re-export and an item named in full too; what only tests use does not count."""
+    """Through a re-export, an item named in full, and one of a module below; tests do not count."""
     files = {
-        "lib.rs": "mod a; mod b; mod c; pub use b::Second;",
+        "lib.rs": "mod a; mod b; mod c; mod d; pub use b::Second;",
         "a.rs": "use crate::{Second, c::Third}; pub struct First;",
         "b.rs": "pub struct Second(crate::a::First);",
         "c.rs": "pub struct Third; #[cfg(test)] mod tests { use crate::a::First; }",
+        "d.rs": "mod e; pub struct Fourth; pub fn f() { e::g() }",
+        "d/e.rs": "use super::Fourth; pub fn g() {}",
     }
-    (tmp_path / "src").mkdir()
+    (tmp_path / "src" / "d").mkdir(parents=True)
     for name, text in files.items():
         (tmp_path / "src" / name).write_text(text)
-    assert circles(tmp_path) == [["a", "b"]]
+    assert circles(tmp_path) == [["a", "b"], ["d", "d::e"]]
 
 
 def test_rooms_of_the_package_are_in_the_order_of_the_data() -> None:

@@ -1,6 +1,6 @@
 //! How a structure falls whose fall only multipliers prove: a virtual motion.
 
-use super::Verdict;
+use super::verdict::Verdict;
 use crate::{
     equilibrium::{accelerations_along, collapse_motion},
     formulate::{Acceleration, Assembly, BlockSet, Components, FrictionCone},

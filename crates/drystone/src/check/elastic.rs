@@ -1,6 +1,6 @@
 //! Verdicts on what stands with joints that neither part nor slide.
 
-use super::{Verdict, takedown::standing};
+use super::verdict::{Verdict, standing};
 use crate::{
     canonical::elastic_forces,
     formulate::{Assembly, BlockSet, FrictionCone},

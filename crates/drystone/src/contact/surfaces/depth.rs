@@ -4,7 +4,11 @@
 //! of both lie on one another and look the same way. From each such place a point inside both is taken; the depth there is its
 //! distance from the surface that it has to get out of.
 
-use super::{Pair, in_parts::in_parts, nearest::nearest};
+use super::{
+    in_parts::in_parts,
+    nearest::nearest,
+    pair::{Pair, Seen},
+};
 use crate::{
     geometry::{Surface, Vector3},
     interrupt::poll,
@@ -27,12 +31,6 @@ pub(super) fn depth(pair: &Pair, candidates: &[[u32; 2]]) -> Option<f64> {
     let under = in_parts(candidates, |part| vec![same_side(pair, part)]);
     deepest = under.into_iter().fold(deepest, f64::max);
     (deepest > pair.tolerance).then_some(deepest)
-}
-
-/// A surface and where it stands from the other.
-pub(super) struct Seen<'a> {
-    pub surface: &'a Surface,
-    pub at: Vector3,
 }
 
 /// How deep a point is inside of a surface, metres; zero if it is not by more than the tolerance.

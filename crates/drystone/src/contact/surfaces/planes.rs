@@ -1,7 +1,11 @@
 //! Points of one plane: those at the corners of their hull bear all that the others can.
 
-use super::{Feature, Found, Mixed, SurfacePoint, in_parts::in_parts};
+use super::{
+    in_parts::in_parts,
+    point::{Found, Mixed, SurfacePoint},
+};
 use crate::{
+    contact::Feature,
     geometry::{Vector3, convex_outline},
     interrupt::poll,
 };

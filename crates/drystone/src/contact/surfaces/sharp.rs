@@ -1,6 +1,10 @@
 //! Where an edge or a vertex of one surface touches another: on a face, or across an edge.
 
-use super::{Found, Lying, Pair, Plane, nearest::closest};
+use super::{
+    nearest::closest,
+    pair::Pair,
+    point::{Found, Lying, Plane},
+};
 use crate::{
     geometry::{Surface, SurfaceEdge, Vector3},
     interrupt::poll,

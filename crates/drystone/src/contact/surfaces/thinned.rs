@@ -5,7 +5,7 @@
 //! and that of a force that leans from n: what is lost by taking products of shares is the spread of the points, below the square of
 //! [`NEAR`].
 
-use super::{Mixed, SurfacePoint};
+use super::point::{Mixed, SurfacePoint};
 use crate::{geometry::Vector3, interrupt::poll};
 use std::{collections::HashSet, hash::BuildHasherDefault};
 
