@@ -26,7 +26,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 # isort: split
 
 import argparse
-import os
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -142,7 +141,7 @@ def measure(family: Family, name: str, build: Build, peers: list[Peer]) -> Row:
         if space or not peer.round:
             asked[peer.name] = partial(theirs, peer, scene, gauss)
     answers = in_turns(asked)
-    return Row(family.name, name, blocks, points, contacts, os.getloadavg()[0], answers)
+    return Row(family.name, name, blocks, points, contacts, results.load(), answers)
 
 
 def run(families: list[Family], quick: bool, cap: float, peers: list[Peer]) -> Iterator[Row]:

@@ -22,7 +22,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 
 import argparse
 import math
-import os
 from collections.abc import Iterator
 
 import numpy as np
@@ -31,6 +30,7 @@ from rich.console import Console
 from rich.table import Table
 
 import drystone as ds
+import fastest_run
 import results
 from hard_scene_list import SCENES, HardScene
 from simulators import Simulator
@@ -43,15 +43,8 @@ SIMULATORS: dict[str, Simulator] = {
     "mujoco": MuJoCo(cone="elliptic"),
     "rapier": Rapier(),
 }
-RATE = 240
 LOOKS = 20
 """Times that places are looked at."""
-
-ROUNDS = 3
-"""Runs of which the fastest counts; they move alike."""
-
-LONG = 5.0
-"""Seconds: what takes longer is run once."""
 
 FALLEN = 0.25
 """Of the longest side."""
@@ -62,13 +55,7 @@ LEFT_OUT = {("large pyramid", "MuJoCo"): "left out: more than two seconds a step
 
 COLUMNS = (
     *results.WHERE,
-    "scene",
-    "blocks",
-    "friction",
-    "dt",
-    "steps",
-    "simulator",
-    "simulator_version",
+    *fastest_run.COLUMNS,
     "should",
     "fallen",
     "drift",
@@ -130,15 +117,10 @@ _SHOWN = (
 def measure(name: str, simulators: list[Simulator]) -> Iterator[dict[str, object]]:
     """A line for each simulator."""
     hard = SCENES[name]()
-    steps = round(hard.seconds * RATE)
-    common = results.where(os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan) | {
-        "scene": name,
-        "blocks": sum(not body.fixed for body in hard.scene.bodies),
-        "friction": f"{hard.scene.friction:g}",
-        "dt": f"1/{RATE}",
-        "steps": steps,
-        "should": "fall" if hard.falls else "stand",
-    }
+    steps = round(hard.seconds * fastest_run.RATE)
+    blocks = sum(not body.fixed for body in hard.scene.bodies)
+    common = fastest_run.common(name, blocks, hard.scene.friction, steps)
+    common["should"] = "fall" if hard.falls else "stand"
     for simulator in simulators:
         ours = isinstance(simulator, Drystone)
         why = LEFT_OUT.get((name, simulator.name), "")
@@ -147,23 +129,17 @@ def measure(name: str, simulators: list[Simulator]) -> Iterator[dict[str, object
             yield blank | common | {"simulator": simulator.name, "stopped": why}
             continue
         scene = hard.scene.parted() if ours else hard.scene
-        motion = simulator.run(scene, 1 / RATE, steps, steps // LOOKS, hard.velocities)
-        for _ in range(0 if motion.seconds > LONG else ROUNDS - 1):
-            again = simulator.run(scene, 1 / RATE, steps, steps // LOOKS, hard.velocities)
-            motion = min(motion, again, key=lambda motion: motion.seconds)
+        every = steps // LOOKS
+        motion = fastest_run.fastest_run(simulator, scene, steps, every, hard.velocities)
         frames = motion.frames
         late = frames[-1 - LOOKS // 4 :, :, :2]
-        yield common | {
-            "simulator": simulator.name,
-            "simulator_version": simulator.version(),
+        measured = {
             "fallen": fallen(hard, frames[-1]),
             "drift": results.number(float(np.linalg.norm(late - late[0], axis=-1).max()), 2),
             "penetration": results.number(deepest(hard.scene, frames[len(frames) // 2 :]), 2),
-            "microseconds": results.number(1e6 * motion.seconds / steps, 3),
-            "worst_ms": results.number(1e3 * motion.worst, 3),
-            "not_exact": motion.not_exact if ours else "",
             "stopped": motion.stopped,
         }
+        yield common | fastest_run.times(simulator, motion, steps) | measured
 
 
 def fallen(hard: HardScene, frame: Floats) -> int:

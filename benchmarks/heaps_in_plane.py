@@ -18,7 +18,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 
 import argparse
 import math
-import os
 from collections.abc import Iterator
 
 import numpy as np
@@ -26,8 +25,8 @@ from rich.console import Console
 from rich.table import Table
 
 import drystone as ds
+import fastest_run
 import results
-from hard_scenes import LONG, RATE, ROUNDS
 from simulators import Simulator
 from simulators.drystone import Drystone
 from simulators.mujoco import MuJoCo
@@ -40,7 +39,8 @@ SIMULATORS: dict[str, Simulator] = {
 }
 BOXES = (25, 50, 100, 200, 400, 800)
 FRICTION = (0.3, 0.5, 0.8)
-SECONDS = 3
+STEPS = 3 * fastest_run.RATE
+"""Three seconds."""
 
 SPACING = 1.15
 """Metres between the middles of boxes: none touches another, however it is turned."""
@@ -53,13 +53,7 @@ SLOWEST = {"MuJoCo": 200}
 
 COLUMNS = (
     *results.WHERE,
-    "scene",
-    "blocks",
-    "friction",
-    "dt",
-    "steps",
-    "simulator",
-    "simulator_version",
+    *fastest_run.COLUMNS,
     "microseconds",
     "worst_ms",
     "not_exact",
@@ -83,35 +77,23 @@ def heap(boxes: int, friction: float, seed: int = 0) -> ds.Scene:
 
 
 def measure(
-    boxes: int, friction: float, simulators: list[Simulator], steps: int = SECONDS * RATE
+    boxes: int,
+    friction: float,
+    simulators: list[Simulator],
+    steps: int = STEPS,
 ) -> Iterator[dict[str, object]]:
     """A line for each simulator, drystone first."""
     scene = heap(boxes, friction)
-    common = results.where(os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan) | {
-        "scene": f"heap of {boxes}",
-        "blocks": boxes,
-        "friction": f"{friction:g}",
-        "dt": f"1/{RATE}",
-        "steps": steps,
-    }
+    common = fastest_run.common(f"heap of {boxes}", boxes, friction, steps)
     first = math.nan
     for simulator in simulators:
         if boxes > SLOWEST.get(simulator.name, boxes):
             continue
-        motion = simulator.run(scene, 1 / RATE, steps, steps)
-        for _ in range(0 if motion.seconds > LONG else ROUNDS - 1):
-            again = simulator.run(scene, 1 / RATE, steps, steps)
-            motion = min(motion, again, key=lambda motion: motion.seconds)
+        motion = fastest_run.fastest_run(simulator, scene, steps, steps)
         ours = isinstance(simulator, Drystone)
         first = motion.seconds if ours else first
-        yield common | {
-            "simulator": simulator.name,
-            "simulator_version": simulator.version(),
-            "microseconds": results.number(1e6 * motion.seconds / steps, 3),
-            "worst_ms": results.number(1e3 * motion.worst, 3),
-            "not_exact": motion.not_exact if ours else "",
-            "ratio": "" if ours else results.number(first / motion.seconds, 3),
-        }
+        ratio = "" if ours else results.number(first / motion.seconds, 3)
+        yield common | fastest_run.times(simulator, motion, steps) | {"ratio": ratio}
 
 
 def exponent(lines: list[dict[str, object]], friction: float, name: str) -> float:

@@ -15,7 +15,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 
 import argparse
 import collections
-import os
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -110,7 +109,7 @@ class Tally:
 
     def line(self) -> dict[str, object]:
         """The line of the file."""
-        return results.where(os.getloadavg()[0]) | {
+        return results.where(results.load()) | {
             "family": self.family,
             "problems": self.problems,
             "answers": self.answers,

@@ -161,6 +161,11 @@ def _lines(case: Case) -> Iterator[dict[str, object]]:
         }
 
 
+def load() -> float:
+    """How many processes want to run, over the last minute; NaN where the system does not say."""
+    return os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan
+
+
 def where(load: float) -> dict[str, object]:
     """The columns of `WHERE`, today and here."""
     return {

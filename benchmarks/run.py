@@ -13,8 +13,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 # isort: split
 
 import argparse
-import math
-import os
 
 from rich.console import Console
 
@@ -84,7 +82,7 @@ def _case(
                 say(f"{result.peer}, memory")
                 result.memory = memory.grown(scene, workload, key, arguments.cap)
     counts = (len(assembly), len(assembly.bodies))
-    load = os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan
+    load = results.load()
     return results.Case(row, workload.name, workload.note, *counts, measured, load)
 
 

@@ -16,7 +16,6 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 import argparse
 import gc
 import math
-import os
 import statistics
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -196,7 +195,7 @@ def measure(
                 result.stopped = motion.stopped
                 _judge(result, judge.Boxes.of(scene), motion.frames, still)
         running = [key for key in running if _repeats(measured[key], steps)]
-    load = os.getloadavg()[0] if hasattr(os, "getloadavg") else math.nan
+    load = results.load()
     blocks = int((~judge.Boxes.of(scene).fixed).sum())
     return Case(name, dimension, blocks, rate, measured, load)
 

@@ -1,0 +1,60 @@
+"""A simulator's fastest run of a scene, for tables with a line for each simulator."""
+
+from __future__ import annotations
+
+import drystone as ds
+import results
+from simulators import Motion, Simulator
+from simulators.base import Velocities
+from simulators.drystone import Drystone
+
+RATE = 240
+"""Steps a second."""
+
+ROUNDS = 3
+"""Runs of which the fastest counts; they move alike."""
+
+LONG = 5.0
+"""Seconds: what takes longer is run once."""
+
+COLUMNS = ("scene", "blocks", "friction", "dt", "steps", "simulator", "simulator_version")
+"""Of such a table, behind those of `results.WHERE`."""
+
+
+def common(scene: str, blocks: int, friction: float, steps: int) -> dict[str, object]:
+    """What is the same on the lines of all simulators."""
+    return results.where(results.load()) | {
+        "scene": scene,
+        "blocks": blocks,
+        "friction": f"{friction:g}",
+        "dt": f"1/{RATE}",
+        "steps": steps,
+    }
+
+
+def fastest_run(
+    simulator: Simulator,
+    scene: ds.Scene,
+    steps: int,
+    every: int,
+    velocities: Velocities | None = None,
+) -> Motion:
+    """The fastest of some runs, or the one that takes long."""
+
+    def once() -> Motion:
+        return simulator.run(scene, 1 / RATE, steps, every, velocities)
+
+    first = once()
+    again = [once() for _ in range(0 if first.seconds > LONG else ROUNDS - 1)]
+    return min(first, *again, key=lambda motion: motion.seconds) if again else first
+
+
+def times(simulator: Simulator, motion: Motion, steps: int) -> dict[str, object]:
+    """Who it was, and how long a step took."""
+    return {
+        "simulator": simulator.name,
+        "simulator_version": simulator.version(),
+        "microseconds": results.number(1e6 * motion.seconds / steps, 3),
+        "worst_ms": results.number(1e3 * motion.worst, 3),
+        "not_exact": motion.not_exact if isinstance(simulator, Drystone) else "",
+    }
