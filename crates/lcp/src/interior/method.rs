@@ -55,15 +55,17 @@ const MOST: usize = 200;
 /// An iteration that leaves more than this share of gap and residual is none, and how many of them in a row are the end.
 const PROGRESS: f64 = 0.9;
 const PATIENCE: usize = 8;
-/// The same from a gap on at which accelerations are good to a share of 1e-6 at least: more is worth a few iterations, not many.
+/// The same from a gap on at which accelerations are good to a share of 1e-6 at least, if contacts close by no more than a share of the
+/// fastest body that proves a fall: more is worth a few iterations, not many.
 const LATE: f64 = 1e-12;
+const LATE_CLOSING: f64 = 1e-10;
 const LATE_PROGRESS: f64 = 0.3;
 const LATE_PATIENCE: usize = 2;
 /// Share of the way to the border of the cones.
 const SHARE: f64 = 0.995;
 /// Weight of the proximal term: of the gap, within bounds. It changes no answer; larger is slower, smaller loses digits.
 const PROXIMAL: f64 = 1e-7;
-const PROXIMAL_BOUNDS: [f64; 2] = [1e-11, 1e-8];
+const PROXIMAL_BOUNDS: [f64; 2] = [1e-15, 1e-8];
 /// The same where layers give way by one for a force of one: beside them it may be larger, and fewer digits are lost.
 const PROXIMAL_WITH_LAYERS: [f64; 2] = [1e-8, 1e-6];
 /// Weight of the proximal term on the motion where there are no masses.
@@ -209,10 +211,10 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
             if merit <= 1.0 || self.rate > 0.0 && residuals.gap <= GAP_OF_PUSH && residuals.worst <= RESIDUAL_OF_PUSH {
                 return Some(self.found(End::Converged, iteration + restoring.looks, residuals.gap));
             }
-            let (progress, patience, end) = match residuals.gap < LATE {
-                true => (LATE_PROGRESS, LATE_PATIENCE, End::Converged),
-                false => (PROGRESS, PATIENCE, End::Stalled),
-            };
+            let late = residuals.gap < LATE;
+            let settled = late && residuals.worst <= LATE_CLOSING * largest(&self.a);
+            let (progress, patience) = if settled { (LATE_PROGRESS, LATE_PATIENCE) } else { (PROGRESS, PATIENCE) };
+            let end = if late { End::Converged } else { End::Stalled };
             // Between layers and under a push bodies go far before the forces hold them, and the gap grows on the way.
             let reached = if self.has_layers() || self.rate > 0.0 { [residuals.worst, merit] } else { [merit; 2] };
             let better = (0..2).any(|k| reached[k] < progress * best[k]);

@@ -169,14 +169,14 @@ impl<'a, S: Kinematics> AtRest<'a, S> {
 }
 
 /// What a solver says from the basis to which the interior-point method leads: fewer rows bear then, and do not depend on one
-/// another, so that later steps can begin from them. Where the pivots that remain are many it gives up.
+/// another, so that later steps can begin from them. Where its factor, or the pivots that remain, take long it gives up.
 fn from_interior(problem: &Gauss, forces: &[f64], bodies: &[usize], solver: &mut ConeSolver) -> Membership {
     let Some(basis) = problem.basis(forces, |_| false) else { return Membership::PivotLimit };
     for &body in bodies {
         solver.add_group(&(problem.size * body..problem.size * (body + 1)).collect::<Vec<_>>());
     }
-    solver.start_from(basis);
     solver.limit_effort(solver.effort() + Ladder::new(problem.size, bodies.len()).effort_of_interior_point());
+    solver.start_from(basis);
     solver.solve()
 }
 
