@@ -18,9 +18,15 @@ use drystone_lcp::{
 
 /// An equilibrium solver with these blocks, and what it says of them, from an answer of the interior-point method.
 pub(crate) fn from_interior(assembly: &Assembly, blocks: &BlockSet) -> (Membership, ConeSolver) {
+    from_interior_within(assembly, blocks, usize::MAX)
+}
+
+/// The same with no more than an effort: [`Membership::PivotLimit`] then.
+pub(crate) fn from_interior_within(assembly: &Assembly, blocks: &BlockSet, effort: usize) -> (Membership, ConeSolver) {
     let space = assembly.body_space_with_axes(blocks);
     let Constrained { motion, forces, found } = space.solve();
     let (mut solver, rows) = (assembly.equilibrium(), assembly.equilibrium_rows());
+    solver.limit_effort(effort);
     for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {
         solver.add_group(rows.of(block));
     }

@@ -34,9 +34,15 @@ const FROM_NOTHING_IN_SPACE: usize = 8_000;
 const WORTH_IN_PLANE: usize = 2_000;
 const WORTH_IN_SPACE: usize = 50_000;
 
-/// A change is worth so many times more pivots than a verdict from nothing, about as long as the interior-point method itself
-/// takes: what is kept is lost with it.
+/// Factors of the interior-point method from nothing, of most structures.
+const FACTORS: usize = 12;
+
+/// A change is worth so many times more pivots than a verdict from nothing: the basis that is kept is lost with it, from which the
+/// changes that follow take a thousandth of that.
 const OF_A_CHANGE: usize = 8;
+
+/// What is within rounding of a limit is worth so many times more: below a second for what has a thousand blocks.
+const AT_A_LIMIT: usize = 32;
 
 /// Most rows of a complementarity problem that pivots solve as soon as the interior-point method.
 pub(crate) const FEW_ROWS: usize = 200;
@@ -78,6 +84,16 @@ impl Ladder {
     pub fn effort_of_interior_point(self) -> usize {
         let of_a_block = if self.in_plane() { WORTH_IN_PLANE } else { WORTH_IN_SPACE };
         of_a_block * (self.blocks + FIRST_BLOCKS)
+    }
+
+    /// Effort of pivots where the interior-point method proves nothing: within rounding of a limit their digits may.
+    pub fn effort_at_a_limit(self) -> usize {
+        AT_A_LIMIT * self.effort_of_interior_point()
+    }
+
+    /// Effort that takes as long as some factors of that method.
+    pub fn effort_of_factors(self, factors: usize) -> usize {
+        self.effort_of_interior_point() / FACTORS * factors
     }
 
     /// The same where pivots start from what is kept.

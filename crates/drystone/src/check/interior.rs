@@ -6,14 +6,16 @@ use super::{
     verdict::Verdict,
 };
 use crate::{
-    crossover::from_interior,
+    crossover::from_interior_within,
     equilibrium::GoOn,
     formulate::{Assembly, BlockSet, FrictionCone},
+    ladder::Ladder,
 };
-use drystone_lcp::{Counts, Status};
+use drystone_lcp::{Counts, Status, cone::Membership};
 
 /// The verdict of the interior-point method. Where its answer proves nothing, the equilibrium solver decides, which has more
-/// digits: on the pyramids, or on those within and around round cones, as far as these agree.
+/// digits: on the pyramids, or on those within and around round cones, as far as these agree. What it does not decide in a stated
+/// effort, which large structures within rounding of their limit would take for minutes, stays borderline.
 pub(super) fn check(
     assembly: &Assembly,
     blocks: &BlockSet,
@@ -26,11 +28,12 @@ pub(super) fn check(
         let refines = !found.stable && !assembly.is_round(cone) && assembly.is_wide();
         return if refines { refined(assembly, blocks, found, go_on) } else { Some(found) };
     }
-    let within = by_pyramids(assembly, blocks, spent, go_on)?;
+    let Some(within) = by_pyramids(assembly, blocks, spent, go_on)? else { return Some(found) };
     if within.stable || !assembly.is_round(cone) {
         return Some(within);
     }
     let around = by_pyramids(&assembly.circumscribed(), blocks, within.counts, go_on)?;
+    let Some(around) = around else { return Some(Verdict { counts: within.counts, ..found }) };
     let falls = around.status == Status::Solved && !around.stable;
     Some(if falls { around } else { Verdict { counts: around.counts, ..found } })
 }
@@ -45,8 +48,13 @@ fn refined(assembly: &Assembly, blocks: &BlockSet, found: Verdict, go_on: &mut G
     Some(if falls { Verdict { iterations: found.iterations, ..moved } } else { found })
 }
 
-fn by_pyramids(assembly: &Assembly, blocks: &BlockSet, spent: Counts, go_on: &mut GoOn<'_>) -> Option<Verdict> {
-    let (found, solver) = from_interior(assembly, blocks);
+/// None inside if that takes more than an effort.
+fn by_pyramids(assembly: &Assembly, blocks: &BlockSet, spent: Counts, go_on: &mut GoOn<'_>) -> Option<Option<Verdict>> {
+    let effort = Ladder::of(assembly, blocks.len()).effort_at_a_limit();
+    let (found, solver) = from_interior_within(assembly, blocks, effort);
+    if found == Membership::PivotLimit && solver.is_exhausted() {
+        return Some(None);
+    }
     let counts = spent + solver.counts();
-    by_equilibrium(assembly, blocks, found, &solver, counts, go_on)
+    by_equilibrium(assembly, blocks, found, &solver, counts, go_on).map(Some)
 }

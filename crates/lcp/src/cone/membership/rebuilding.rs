@@ -4,13 +4,14 @@ use super::{Basic, ConeSolver, FILL, PIVOT, SAFE_PIVOT, basis::BasisSet, infeasi
 
 impl ConeSolver {
     /// Begins from a basis of these columns, as far as all their rows are present: those that depend on others stay out, and
-    /// unit columns take the places that are left. The next answer makes the pivots that remain. Marks end here.
+    /// unit columns take the places that are left. The next answer makes the pivots that remain. Marks end here. A factor that takes
+    /// more than the [effort](Self::limit_effort) is none: the unit columns remain.
     pub fn start_from(&mut self, columns: impl IntoIterator<Item = usize>) {
         self.forget();
         let whole = |&j: &u32| self.present.takes_part(j);
         let columns = columns.into_iter().map(|j| j as u32).filter(whole).collect();
         let units: Vec<bool> = self.present.is_there.iter().map(|present| !present).collect();
-        if !self.rebuild(&BasisSet { columns, units }) {
+        if !self.rebuild_while(&BasisSet { columns, units }, |solver| !solver.is_exhausted()) {
             self.rebuild(&BasisSet { columns: Vec::new(), units: vec![true; self.basis.basic.len()] });
         }
         self.recompute_values();
@@ -20,6 +21,11 @@ impl ConeSolver {
     /// sparse: the columns of a group press on older ones. One that depends on those before it stays out. What bears has
     /// to be found out anew. False if the factor refuses a column.
     pub(super) fn rebuild(&mut self, basis: &BasisSet) -> bool {
+        self.rebuild_while(basis, |_| true)
+    }
+
+    /// The same as long as `go_on`, asked before each column, says so; false if it does not.
+    fn rebuild_while(&mut self, basis: &BasisSet, go_on: impl Fn(&Self) -> bool) -> bool {
         self.counts.refactorisations += 1;
         self.journal.lose_values();
         self.bearing.mixed = true;
@@ -36,6 +42,9 @@ impl ConeSolver {
         (0..self.bearing.bears.len() as u32).for_each(|j| self.bearing.doubt(j, &mut self.journal));
         let (mut group, mut first) = (0, 0);
         for j in columns {
+            if !go_on(self) {
+                return false;
+            }
             if self.column_group(j) != group {
                 (group, first) = (self.column_group(j), self.basis.factor.stages());
             }
