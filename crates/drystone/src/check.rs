@@ -113,3 +113,8 @@ pub fn check_blocks_while(
         _ => by_equilibrium(assembly, blocks, found, &equilibrium, spent, go_on),
     }
 }
+
+/// [`check_blocks`] by the interior-point method at once; `spent` is work done for it.
+pub(crate) fn by_interior_point(assembly: &Assembly, blocks: &BlockSet, spent: Counts) -> Verdict {
+    interior::check(assembly, blocks, FrictionCone::Pyramid, spent, &mut |_| true).expect("nobody stops it")
+}

@@ -33,6 +33,7 @@ mod ladder;
 pub mod limit;
 pub mod load;
 mod mass_properties;
+mod nearby;
 pub mod plan;
 mod proof;
 pub mod scene;

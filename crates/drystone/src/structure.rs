@@ -2,13 +2,14 @@
 //! last one.
 
 mod fall;
+mod hard;
 mod history;
 mod putting_up;
 mod state;
 
 use crate::{
     check::{self, Verdict},
-    crossover::from_interior,
+    crossover::from_interior_within,
     error::SceneError,
     formulate::{Assemble, Assembly, BlockRows, BlockSet, Push},
     interrupt::or_else,
@@ -20,7 +21,8 @@ use drystone_lcp::{
     Counts, Status,
     cone::{ConeSolver, Membership},
 };
-use fall::Fall;
+use fall::{Fall, Motion};
+use hard::Hard;
 use history::History;
 use putting_up::PuttingUp;
 use std::sync::Arc;
@@ -59,7 +61,9 @@ pub struct Structure {
     new: Vec<usize>,
     gone: Vec<usize>,
     history: History,
-    /// It fell when the solver was last asked.
+    /// Where pivots take too long: what is known in place of a basis. The solver is empty then.
+    hard: Option<Hard>,
+    /// It fell when that was last asked.
     fell: bool,
     /// Work of solvers that were given up for another.
     earlier: Counts,
@@ -89,6 +93,7 @@ impl Structure {
             new: Vec::new(),
             gone: Vec::new(),
             history: History::default(),
+            hard: None,
             fell: false,
             earlier: Counts::default(),
         }
@@ -157,14 +162,14 @@ impl Structure {
     }
 
     fn decide(&mut self) -> Option<bool> {
-        let fall = Fall { solver: &self.solver, rows: &self.rows, assembly: &self.assembly };
-        if self.fell && fall.carries_over(&self.new, &self.gone) {
+        if self.fell && self.fall().carries_over(&self.new, &self.gone) {
             return Some(false);
         }
         let found = self.ask(ConeSolver::decide);
         match found {
             Membership::Inside => Some(true),
             Membership::Outside => Some(false),
+            _ if self.hard.is_some() => None,
             // The accelerations may tell what the forces do not.
             _ => {
                 let verdict = self.by_equilibrium(found, Counts::default());
@@ -173,21 +178,74 @@ impl Structure {
         }
     }
 
-    /// Tells the solver of the changes and asks it. Where the pivots for this would take longer than the interior-point method,
-    /// they are given up for a solver that begins where that ends.
+    /// How it fell when that was last asked.
+    fn fall(&self) -> Fall<'_> {
+        let motion = match &self.hard {
+            Some(hard) => Motion::Found(hard.falling()),
+            None => Motion::Certified(&self.solver, &self.rows),
+        };
+        Fall { assembly: &self.assembly, motion }
+    }
+
+    /// Whether it stands: by pivots, or by the interior-point method where those are too hard.
     fn ask(&mut self, question: impl FnOnce(&mut ConeSolver) -> Membership) -> Membership {
-        let worth = Ladder::of(&self.assembly, self.blocks.len()).effort_of_a_change();
-        self.solver.limit_effort(self.solver.effort().saturating_add(worth));
+        let found = self.effort_of_pivots().and_then(|effort| self.by_pivots(question, effort));
+        let found = found.unwrap_or_else(|| self.by_interior_point());
+        self.fell = found == Membership::Outside;
+        found
+    }
+
+    /// How long pivots are made; None if they are too hard.
+    fn effort_of_pivots(&self) -> Option<usize> {
+        let ladder = Ladder::of(&self.assembly, self.blocks.len());
+        match &self.hard {
+            Some(hard) => hard.chance().map(|factors| ladder.effort_of_factors(factors)),
+            None if self.new.len() == self.blocks.len() => Some(ladder.effort_of_interior_point()),
+            None => Some(ladder.effort_of_a_change()),
+        }
+    }
+
+    /// Tells the solver of the changes and asks it. None where this would take more than some effort: the solver is given up then.
+    fn by_pivots(&mut self, question: impl FnOnce(&mut ConeSolver) -> Membership, effort: usize) -> Option<Membership> {
+        if self.hard.is_some() {
+            (self.new, self.gone) = (self.blocks.iter().collect(), Vec::new());
+        }
+        self.solver.limit_effort(self.solver.effort().saturating_add(effort));
         self.put_up();
-        let mut found = question(&mut self.solver);
+        let found = question(&mut self.solver);
         let hard = found == Membership::PivotLimit && self.solver.is_exhausted();
         self.solver.limit_effort(usize::MAX);
         if hard {
-            self.earlier = self.counts();
-            (found, self.solver) = from_interior(&self.assembly, &self.blocks);
-            self.history = History::default();
+            let hard = Hard::after(self.hard.take());
+            self.begin_anew();
+            self.hard = Some(hard);
+            None
+        } else {
+            self.hard = None;
+            Some(found)
         }
-        self.fell = found == Membership::Outside;
+    }
+
+    /// Begins where the last answer of the method ended. Where it proves nothing a solver decides that begins from its answer.
+    fn by_interior_point(&mut self) -> Membership {
+        let (new, _) = (std::mem::take(&mut self.new), std::mem::take(&mut self.gone));
+        let stands = self.hard.as_mut().and_then(|hard| hard.stands(&self.assembly, &self.blocks, &new));
+        match stands {
+            Some(true) => Membership::Inside,
+            Some(false) => Membership::Outside,
+            None => self.by_crossover(),
+        }
+    }
+
+    /// What a solver says that begins from the answer of the interior-point method. Borderline where that takes too long.
+    fn by_crossover(&mut self) -> Membership {
+        let effort = Ladder::of(&self.assembly, self.blocks.len()).effort_at_a_limit();
+        let (found, mut solver) = from_interior_within(&self.assembly, &self.blocks, effort);
+        if found == Membership::PivotLimit && solver.is_exhausted() {
+            return Membership::Borderline;
+        }
+        solver.limit_effort(usize::MAX);
+        (self.hard, self.solver, self.history) = (None, solver, History::default());
         found
     }
 
@@ -198,7 +256,7 @@ impl Structure {
 
     /// Whether the last answer was neither: standing and falling are both within what is allowed, or neither is proved.
     pub fn is_borderline(&self) -> bool {
-        self.solver.doubt().is_some()
+        self.solver.doubt().is_some() || self.hard.as_ref().is_some_and(Hard::is_undecided)
     }
 
     /// The verdict with all forces, or with the accelerations if it falls.
@@ -211,7 +269,7 @@ impl Structure {
         self.earlier = self.counts();
         self.solver = self.assembly.equilibrium();
         (self.new, self.gone) = (self.blocks.iter().collect(), Vec::new());
-        (self.history, self.fell) = (History::default(), false);
+        (self.history, self.hard, self.fell) = (History::default(), None, false);
     }
 
     /// In which interval of t the structure can stand under t times a push beside its loads, from the basis that is there.
@@ -221,6 +279,7 @@ impl Structure {
 
     fn limit_of(&mut self, push: &Push) -> Limit {
         let found = self.ask(ConeSolver::solve);
+        let found = if self.hard.is_some() { Membership::PivotLimit } else { found };
         limit_from(&self.assembly, &self.blocks, push, found, &self.solver)
     }
 
@@ -228,7 +287,10 @@ impl Structure {
         let before = self.counts();
         let found = self.ask(ConeSolver::solve);
         let spent = self.counts() - before;
-        self.by_equilibrium(found, spent)
+        match self.hard {
+            Some(_) => check::by_interior_point(&self.assembly, &self.blocks, spent),
+            None => self.by_equilibrium(found, spent),
+        }
     }
 
     /// Work done so far.
@@ -238,7 +300,7 @@ impl Structure {
 
     /// Numbers stored in the factor.
     pub fn entries(&self) -> usize {
-        self.solver.entries()
+        self.hard.as_ref().map_or_else(|| self.solver.entries(), Hard::entries)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Searches whose tests ask the interior-point method from the first one on, against those by pivots.
 
-use super::by_interior::{Put, by_interior_point};
+use super::by_interior::by_interior_point;
 use super::candidates::Upward;
 use super::holding::Holding;
 use super::learned::Learned;
@@ -12,6 +12,7 @@ use super::touching::Touching;
 use crate::{
     BodyOptions, Scene,
     formulate::{Assembly, BlockSet},
+    nearby::Put,
     scenes::{arch, extruded, random_stack, square_pyramid},
 };
 use std::sync::atomic::AtomicBool;

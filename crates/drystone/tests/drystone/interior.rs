@@ -2,12 +2,15 @@
 
 use drystone::{
     Scene, Structure,
-    check::{Route, Verdict, check_while},
+    check::{Route, Verdict, check_blocks, check_while},
     formulate::{Assembly, Cones, FrictionCone},
     scene::{BodyOptions, SceneOf},
     scenes,
     simulate::{Options, World},
 };
+use drystone_lcp::Status;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64;
 
 fn by<S: drystone::formulate::Assemble>(scene: &SceneOf<S>, route: Route, cone: FrictionCone) -> Verdict {
     let assembly = Assembly::with_cones(scene, Cones::default()).unwrap();
@@ -77,6 +80,59 @@ fn a_structure_goes_on_from_the_interior() {
                 true
             });
         assert_eq!(structure.stands(), Some(fresh.unwrap().unwrap().stable), "without {block}");
+    }
+}
+
+/// Too hard for pivots, its answers begin at forces: those of a check from nothing whatever comes and goes, also when it is taken up
+/// from its bytes, and no pivots but where these are tried again.
+#[test]
+fn a_structure_too_hard_for_pivots_goes_on_from_forces() {
+    let scene = leaning(14, 0.3);
+    let assembly = Assembly::new(&scene).unwrap();
+    let blocks = assembly.blocks();
+    let mut structure = Structure::of(assembly.clone());
+    (0..blocks).for_each(|block| structure.add(block));
+    assert_eq!(structure.stands(), Some(true));
+    let mut random = Pcg64::seed_from_u64(3);
+    let (mut verdicts, mut without_pivots) = ([0, 0], 0);
+    for step in 0..60 {
+        // Mostly the upper half, so that it stands now and then.
+        let block = random.random_range(if step % 10 == 9 { 0..blocks } else { blocks / 2..blocks });
+        if structure.blocks().contains(block) {
+            structure.remove(block)
+        } else {
+            structure.add(block)
+        }
+        if step % 7 == 0 {
+            structure = Structure::from_bytes(assembly.clone(), &structure.to_bytes()).unwrap();
+        }
+        let before = structure.counts().pivots;
+        let stands = structure.stands();
+        without_pivots += usize::from(structure.counts().pivots == before);
+        let fresh = check_blocks(&assembly, structure.blocks());
+        assert_eq!(stands, Some(fresh.stable), "step {step}");
+        if step % 12 == 0 {
+            let verdict = structure.check();
+            assert_eq!((verdict.stable, &verdict.falling), (fresh.stable, &fresh.falling), "step {step}");
+            assert!(verdict.residual < 1e-9);
+        }
+        verdicts[usize::from(fresh.stable)] += 1;
+        if !fresh.stable && random.random_range(0..3) > 0 {
+            structure.add(block);
+        }
+    }
+    assert!(verdicts.iter().all(|&verdicts| verdicts > 10), "{verdicts:?}");
+    assert!(without_pivots > 30, "{without_pivots} of 60");
+}
+
+/// The nearer to its limit the slower a wall falls: contacts may close by rounding beside that only.
+#[test]
+fn a_wall_within_a_millionth_of_its_limit_is_decided() {
+    let limit = 0.370_969_159_803_044; // of `drystone.limit`, to 1e-12
+    for share in [-1e-2, -1e-4, -1e-6, 1e-6, 1e-4, 1e-2] {
+        let verdict = by(&leaning(40, limit * (1.0 + share)), Route::Equilibrium, FrictionCone::Pyramid);
+        assert_eq!((verdict.status, verdict.stable), (Status::Solved, share < 0.0), "{share:e}");
+        assert_eq!(verdict.counts.pivots, 0, "{share:e}");
     }
 }
 
