@@ -131,6 +131,20 @@ def test_tables_are_cut() -> None:
     assert len(ds.simulate(ds.scenes.fall7(), steps=0).table().splitlines()) == 2
 
 
+def test_what_collapses_or_escapes_has_a_table() -> None:
+    limit = ds.limit(ds.scenes.column(9, friction=2.0), gravity=(9.81, 0))
+    for answer in (limit, limit.upper, ds.margin(ds.scenes.column(9, friction=2.0))):
+        lines = answer.table(3).splitlines()
+        assert [line.split()[0] for line in lines[2:5]] == ["1", "2", "3"]
+        assert "x [m/s]" in lines[0]
+        assert "the first 3 of 8; rows= shows more" in lines[5]
+    space = ds.limit(ds.scenes.column(3).extruded(1.0), push={"2": (1, 0, 0)})
+    assert "turns z [rad/s]" in space.table()
+    escape = ds.check(ds.scenes.arch(8, friction=0.0), strong=True).escape
+    assert escape is not None
+    assert len(escape.table(2).splitlines()) == 2 + 2 + 1
+
+
 def test_tables_do_not_show_what_rounding_left() -> None:
     """Upright blocks press straight down: 0, not 5.551e-17 or -0."""
     scene = ds.Scene(friction=0.5)
