@@ -75,10 +75,11 @@ lint: style types viewer-lint deny
 	@echo "== cargo clippy"
 	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
 
-# The site, with its notebooks run and the crates' own documentation in it.
+# The site, with its notebooks run and the crates' own documentation in it. A link there that leads
+# nowhere, or to what is private, stops it.
 docs: build
 	@echo "== cargo doc"
-	@cargo doc --release --no-deps --quiet -p drystone -p drystone-lcp -p drystone-contact
+	@RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet -p drystone -p drystone-lcp -p drystone-contact
 	@rm -rf out/rustdoc && mkdir -p out/rustdoc && cp -r target/doc out/rustdoc/rust
 	@echo "== mkdocs"
 	@$(BIN)/pip install "drystone[docs]"
