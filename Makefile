@@ -22,6 +22,8 @@ export PIP_QUIET := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # Of what is installed little is imported: Python compiles that when it is.
 export PIP_NO_COMPILE := 1
+# maturin does build it, through release/backend.py, which it does not know.
+export MATURIN_NO_MISSING_BUILD_BACKEND_WARNING := 1
 unexport CONDA_PREFIX
 
 has = $(shell command -v $(1) 2>/dev/null)
