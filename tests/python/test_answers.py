@@ -118,6 +118,10 @@ def test_tables_are_cut() -> None:
     verdict = ds.check(ds.scenes.wall(5, 5))
     assert len(verdict.table(3).splitlines()) == 2 + 3 + 1
     assert f"the first 3 of {len(verdict.forces)}" in verdict.table(3)
+    with pytest.raises(ValueError, match="rows is -1"):
+        verdict.table(-1)
+    with pytest.raises(TypeError, match="rows must be a whole number"):
+        verdict.table("3")  # type: ignore[arg-type]
     assert "the first" not in verdict.table(1000)
     assert "falls" in ds.check(ds.scenes.arch(20, friction=0.0)).table()
     plan = ds.plan(ds.scenes.column(4), clear_path=True)

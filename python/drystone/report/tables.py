@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from functools import singledispatch
 from typing import TYPE_CHECKING
 
+from drystone.common.numbers import whole
 from drystone.common.text import MOST_ROWS, shown
 from drystone.common.units import scale_of
 from drystone.equilibrium.limits import Limit, LimitEnd
@@ -64,6 +65,13 @@ def text_of(made: Table) -> str:
     Console(file=file, width=WIDE, markup=False, emoji=False, highlight=False).print(made)
     lines = (line.rstrip() for line in file.getvalue().splitlines())
     return "\n".join(line for line in lines if line)
+
+
+def table_of(answer: object, rows: int = MOST_ROWS) -> str:
+    """What `.table(rows)` gives; ValueError for a number of rows that is none."""
+    if whole(rows, "rows") < 0:
+        raise ValueError(f"rows is {rows}: it must be zero or more")
+    return text(answer, rows)
 
 
 @singledispatch
