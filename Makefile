@@ -22,6 +22,8 @@ export PIP_QUIET := 1
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # Of what is installed little is imported: Python compiles that when it is.
 export PIP_NO_COMPILE := 1
+# maturin does build it, through release/backend.py, which it does not know.
+export MATURIN_NO_MISSING_BUILD_BACKEND_WARNING := 1
 unexport CONDA_PREFIX
 
 has = $(shell command -v $(1) 2>/dev/null)
@@ -75,10 +77,11 @@ lint: style types viewer-lint deny
 	@echo "== cargo clippy"
 	@cargo clippy --release --workspace --all-targets --quiet -- -D warnings
 
-# The site, with its notebooks run and the crates' own documentation in it.
+# The site, with its notebooks run and the crates' own documentation in it. A link there that leads
+# nowhere, or to what is private, stops it.
 docs: build
 	@echo "== cargo doc"
-	@cargo doc --release --no-deps --quiet -p drystone -p drystone-lcp -p drystone-contact
+	@RUSTDOCFLAGS="-D warnings" cargo doc --release --no-deps --quiet -p drystone -p drystone-lcp -p drystone-contact
 	@rm -rf out/rustdoc && mkdir -p out/rustdoc && cp -r target/doc out/rustdoc/rust
 	@echo "== mkdocs"
 	@$(BIN)/pip install "drystone[docs]"

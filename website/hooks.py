@@ -5,10 +5,12 @@
 - `<!-- gallery -->` becomes the gallery: every program of `examples/gallery` beside its picture.
 - `<!-- table: name -->` and `<!-- plot: name: text -->` become what is in `benchmarks/results`.
 - The crates' own documentation, if `cargo doc` has made it, is in `rust/`.
+- Notebooks are run as `website/jupyter` says.
 """
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -30,6 +32,11 @@ LINK = re.compile(r"(\]\(|src=\"|href=\")((?:\.\./)+[^)\s\"#]+)(#[^)\s\"]*)?")
 RUSTDOC = ROOT / "out" / "rustdoc"
 """`rust/` in it is what `cargo doc` has made."""
 CRATES = ("drystone", "drystone_lcp", "drystone_contact")
+
+CONFIGURED = "JUPYTER_CONFIG_PATH"
+os.environ[CONFIGURED] = os.pathsep.join(
+    filter(None, (str(ROOT / "website" / "jupyter"), os.environ.get(CONFIGURED)))
+)
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:

@@ -36,6 +36,7 @@ from drystone.common.compressed import (
     of_diagonal_blocks,
     times,
 )
+from drystone.common.text import counted
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
 __all__ = ["ContactError", "Solution", "solve"]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Solution:
     """The answer of `solve`."""
 
@@ -69,6 +70,11 @@ class Solution:
     """Sweeps over the contacts, of all islands together. The same on every machine."""
     newton_steps: int
     """Newton steps, all islands together."""
+
+    def __repr__(self) -> str:
+        sizes = f"{len(self.impulses)} impulses, {len(self.velocities)} velocities"
+        work = f"{counted(self.sweeps, 'sweep')}, {counted(self.newton_steps, 'Newton step')}"
+        return f"<Solution: {self.status}, {sizes}; error {self.error:.1e} m/s, {work}>"
 
 
 def solve(

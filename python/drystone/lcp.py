@@ -29,6 +29,7 @@ from drystone import _core
 from drystone._core import LcpError, StartError
 from drystone.common.arrays import floats, vector
 from drystone.common.compressed import by_columns, is_sparse
+from drystone.common.text import counted
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -52,7 +53,7 @@ METHODS = ("dantzig", "lemke", "block")
 """The methods `solve` knows: see there."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Start:
     """The solution of a sub-problem, as a start for a larger one.
 
@@ -79,8 +80,11 @@ class Start:
         if np.any(self.indices < 0):
             raise StartError(f"start: index {self.indices.min()} is negative")
 
+    def __repr__(self) -> str:
+        return f"<Start: z on {counted(len(self.indices), 'row')}>"
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Solution:
     """The answer of `solve` and of `Solver.solve`."""
 
@@ -105,6 +109,11 @@ class Solution:
     of the ray (M scaled to a unit diagonal); q' ray is at least 1e-7 of q and the ray."""
     rows: NDArray[np.int64]
     """Rows that were present, ascending: all n of them but for a `Solver`."""
+
+    def __repr__(self) -> str:
+        rows = f"{len(self.rows)} of {counted(len(self.z), 'row')}"
+        work = f"{counted(self.pivots, 'pivot')}, residual {self.residual:.1e}"
+        return f"<Solution: {self.status}, {rows}; {work}>"
 
     def restricted(self) -> Solution:
         """The solution of `M[rows][:, rows]`, `q[rows]`: the vectors on `rows` only."""
@@ -186,11 +195,14 @@ class Counts(NamedTuple):
     """Stored numbers of the factor read by triangular solves."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Snapshot:
     """A state of a `Solver`: its rows, q and solution. Opaque; see `Solver.snapshot`."""
 
     _core: _core.LcpSnapshot
+
+    def __repr__(self) -> str:
+        return "<Snapshot of a Solver>"
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Snapshot:
         """Nothing changes a state."""

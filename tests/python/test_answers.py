@@ -118,6 +118,10 @@ def test_tables_are_cut() -> None:
     verdict = ds.check(ds.scenes.wall(5, 5))
     assert len(verdict.table(3).splitlines()) == 2 + 3 + 1
     assert f"the first 3 of {len(verdict.forces)}" in verdict.table(3)
+    with pytest.raises(ValueError, match="rows is -1"):
+        verdict.table(-1)
+    with pytest.raises(TypeError, match="rows must be a whole number"):
+        verdict.table("3")  # type: ignore[arg-type]
     assert "the first" not in verdict.table(1000)
     assert "falls" in ds.check(ds.scenes.arch(20, friction=0.0)).table()
     plan = ds.plan(ds.scenes.column(4), clear_path=True)
@@ -129,6 +133,20 @@ def test_tables_are_cut() -> None:
     assert steps == [10, 20, 30, 40, 50]
     assert "5 of 50 steps" in run.table(5)
     assert len(ds.simulate(ds.scenes.fall7(), steps=0).table().splitlines()) == 2
+
+
+def test_what_collapses_or_escapes_has_a_table() -> None:
+    limit = ds.limit(ds.scenes.column(9, friction=2.0), gravity=(9.81, 0))
+    for answer in (limit, limit.upper, ds.margin(ds.scenes.column(9, friction=2.0))):
+        lines = answer.table(3).splitlines()
+        assert [line.split()[0] for line in lines[2:5]] == ["1", "2", "3"]
+        assert "x [m/s]" in lines[0]
+        assert "the first 3 of 8; rows= shows more" in lines[5]
+    space = ds.limit(ds.scenes.column(3).extruded(1.0), push={"2": (1, 0, 0)})
+    assert "turns z [rad/s]" in space.table()
+    escape = ds.check(ds.scenes.arch(8, friction=0.0), strong=True).escape
+    assert escape is not None
+    assert len(escape.table(2).splitlines()) == 2 + 2 + 1
 
 
 def test_tables_do_not_show_what_rounding_left() -> None:

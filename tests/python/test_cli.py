@@ -150,7 +150,9 @@ BAD = {
     "nothing to check": (["check"], ["SCENE"]),
     "a picture of another kind": (["check", "column:3", "-o", "x.gif"], [".svg", ".png"]),
     "nowhere to write": (["check", "column:3", "-o", "no/such/x.svg"], ["no/such/x.svg"]),
-    "no such scene to write": (["scene", "colum"], ["colum"]),
+    "no such scene to write": (["scene", "colum"], ["colum", 'did you mean "column"']),
+    "a word that is not allowed": (["plan", "column", "--order", "al"], ["order': 'al' is not"]),
+    "a support without a way": (["check", "column", "--settle", "ground"], ["give a support"]),
     "nowhere to write a scene": (["scene", "column", "-o", "no/such/x.json"], ["no/such/x.json"]),
 }
 

@@ -37,6 +37,7 @@ WRONG_TYPES: dict[str, tuple[Callable[[], object], str]] = {
     "blocks as one string": (lambda: ds.check(SCENE, "1"), "list of names"),
     "limit of one string": (lambda: ds.limit(SCENE, gravity=(1, 0), blocks="1"), "list of names"),
     "margin of one string": (lambda: ds.margin(SCENE, "1"), "list of names"),
+    "structure of one string": (lambda: ds.Structure(SCENE, "1"), "list of names"),
     "numbers for names": (lambda: ds.check(SCENE, [1]), "text"),  # type: ignore[list-item]
     "a number for names": (lambda: ds.check(SCENE, 1), "list of names"),  # type: ignore[arg-type]
     "a list for a name": (lambda: ds.Structure(SCENE).add(["1"]), "text"),  # type: ignore[arg-type]

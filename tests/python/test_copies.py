@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import drystone as ds
+from drystone import _core
 
 WAYS: dict[str, Callable[[Any], Any]] = {
     "copy": copy.copy,
@@ -197,6 +198,17 @@ def test_arrays_are_read_only() -> None:
             assert not array.flags.writeable, name
             with pytest.raises(ValueError, match="read-only"):
                 array[...] = 0
+
+
+def test_generators_are_the_callers() -> None:
+    """They are made for each call: solvers that want memory to write on take them as they are."""
+    scene = ds.scenes.column(3)
+    found = _core.generators(scene._core)
+    assert found.data.flags.writeable
+    assert found.applied.flags.writeable
+    found.data[:] = 0.0
+    assert _core.generators(scene._core).data.any()
+    assert ds.check(scene).stable
 
 
 class _Meeting:

@@ -48,6 +48,18 @@ def test_the_readme_has_an_example() -> None:
     assert ">>> ds.check(scene).stable" in (ROOT / "README.md").read_text()
 
 
+def test_the_first_page_says_what_its_example_gives() -> None:
+    """It is written as a script, with the values behind it."""
+    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs/index.md").read_text(), re.DOTALL)
+    names: dict[str, object] = {}
+    exec(code, names)
+    arch = names["arch"]
+    assert isinstance(arch, ds.Scene)
+    assert ds.check(arch).stable
+    assert ds.plan(arch).status == "no_order"
+    assert len(ds.plan(arch, hold=1).order) == 11
+
+
 RULES = ["RELEASING.md", "SECURITY.md", "CODE_OF_CONDUCT.md", "CHANGELOG.md", "fuzz/README.md"]
 
 
@@ -78,6 +90,18 @@ def test_every_public_name_is_there_and_documented() -> None:
         assert isinstance(value, str) or value.__doc__
     with pytest.raises(AttributeError, match="teleport"):
         ds.teleport  # noqa: B018
+
+
+@pytest.mark.parametrize("page", [*PAGES, "CHANGELOG.md"])
+def test_what_pages_name_of_a_class_is_there(page: str) -> None:
+    """As `Verdict.forces`, of every class of the package."""
+    for name, attribute in re.findall(
+        r"`(?:ds\.)?([A-Z]\w+)\.([a-z]\w+)", (ROOT / page).read_text()
+    ):
+        kind = getattr(ds, name, None)
+        if isinstance(kind, type):
+            known = {*dir(kind), *getattr(kind, "__annotations__", {})}
+            assert attribute in known, f"{name}.{attribute}"
 
 
 def test_the_paper_cites_what_its_bibliography_lists() -> None:

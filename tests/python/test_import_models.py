@@ -168,6 +168,25 @@ def test_a_urdf_weighs_what_it_says(tmp_path: Path) -> None:
     assert small.inertia == pytest.approx(1e-6 * body.inertia)
 
 
+def test_collisions_of_a_link_may_overlap(tmp_path: Path) -> None:
+    """A box without a lid: its sides reach into its floor and into one another."""
+    sides = [
+        ("0 0 0.01", "1 0.8 0.02"),
+        ("0.49 0 0.1", "0.02 0.8 0.2"),
+        ("0 0.39 0.1", "1 0.02 0.2"),
+    ]
+    shapes = "".join(
+        f'<collision><origin xyz="{at}"/><geometry><box size="{size}"/></geometry></collision>'
+        for at, size in sides
+    )
+    given = '<inertial><origin xyz="0.1 0 0.05"/><mass value="2"/></inertial>'
+    imported = urdf(tmp_path, f'<link name="box">{given}{shapes}</link>', ground=True)
+    body = imported.scene.body("box")
+    assert (body.mass, len(body.pieces)) == (2, 3)
+    assert body.center_of_mass == pytest.approx((0.1, 0, 0.05))
+    assert ds.check(imported.scene).stable
+
+
 def test_a_urdf_link_without_mass_is_fixed(tmp_path: Path) -> None:
     inside = f'<link name="floor"><inertial><mass value="0"/></inertial>{BOX}</link>'
     imported = urdf(tmp_path, inside)

@@ -432,7 +432,7 @@ def test_of_a_folder_with_every_option(cli: Cli, folder: Path, tmp_path: Path) -
     [
         (["plan", "{folder}"], "-o"),
         (["plan", "{folder}", "-o", "{folder}"], "another folder"),
-        (["plan", "{folder}", "-o", "{folder}/arch.json"], "arch.json"),
+        (["plan", "{folder}", "-o", "{folder}/arch.json"], "arch.json is a file"),
         (["plan", "{folder}", "-o", "{folder}/out", "--address", "auto"], "engine='ray'"),
         (["plan", "{folder}", "-o", "{folder}/out", "--engine", "dask"], "dask"),
         (["plan", "column:3", "--engine", "threads"], "no folder"),

@@ -81,6 +81,12 @@ def test_all_and_dev_hold_the_other_extras() -> None:
         assert set(extras[extra]) <= set(extras["dev"]), extra
 
 
+def test_the_page_on_installing_has_every_extra() -> None:
+    extras = _project()["optional-dependencies"].keys() - {"test", "dev", "docs", "bench"}
+    page = (ROOT / "docs" / "install.md").read_text()
+    assert set(re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE)) == extras
+
+
 def test_the_package_for_compas_is_apart() -> None:
     """It needs drystone, not the reverse; its version is written twice, its licences are ours."""
     folder = ROOT / "compas_drystone"

@@ -157,6 +157,29 @@ def test_a_plate_thrown_along_a_floor_stops_on_a_straight_line(degrees: float) -
     assert (run.moving, run.not_exact) == ((), 0)
 
 
+def test_a_plank_pushed_out_of_a_tower_leaves_the_others_where_they_are() -> None:
+    """Faces on faces have many corners that say the same: a step takes few pivots all the same."""
+    scene = ds.Scene(dimension=3, friction=0.3)
+    scene.add_box((0, 0, -0.5), (6, 6, 1), name="table", fixed=True)
+    for layer in range(6):
+        for k in (-1.01, 0, 1.01):
+            along = layer % 2 == 0
+            place, size = ((0, k), (3.03, 1)) if along else ((k, 0), (1, 3.03))
+            scene.add_box((*place, 0.6 * layer + 0.3), (*size, 0.6), name=f"{layer} {k}")
+    world = ds.World(scene)
+    pushed = world.names.index("3 0")
+    weight = scene.body("3 0").mass * 9.81
+    # It bears the six planks above it at most: friction is 0.3 (6 + 7) times its weight at most.
+    for _ in range(60):
+        world.apply_force("3 0", (0, 4.0 * weight, 0))
+        record = world.step()
+        assert record.rows > 1000
+        assert record.pivots < 200
+        assert record.exact
+        assert np.flatnonzero(~record.motionless).tolist() == [pushed]
+    assert world.velocities[pushed, 1] > 0.1 * 9.81 * 60 / 240
+
+
 def test_a_top_precesses_as_theory_says() -> None:
     """A symmetric top on its tip: I3 w3 W - I1 W^2 cos(tilt) = m g l, its tilt stays.
 

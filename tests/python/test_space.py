@@ -267,3 +267,20 @@ def test_a_large_wall_is_told_by_straight_pressure() -> None:
     weight = sum(body.mass for body in scene.bodies if not body.fixed) * 9.81
     assert verdict.forces.vectors[ground].sum(axis=0) == pytest.approx([0, 0, weight], abs=1e-6)
     assert ds.check(scene, method="interior").stable
+
+
+def test_one_loose_brick_takes_no_more_than_the_wall() -> None:
+    """Only what falls is moved: pivots from nothing went through the whole wall."""
+    scene = ds.scenes.brick_wall(9, 9)
+    right, _, top = scene.bodies[-1].vertices.max(axis=0)
+    scene.add_box((right + 0.4, 0, top + 0.25), (1.6, 0.5, 0.5), name="loose")
+    verdict = ds.check(scene)
+    assert verdict.falling == ("loose",)
+    assert verdict.pivots < 300
+    assert verdict.iterations < 40
+    blocks = [body.name for body in scene.bodies if not body.fixed]
+    structure = ds.Structure(scene, blocks)
+    assert structure.stands() is False
+    assert structure.check().falling == ("loose",)
+    structure.remove("loose")
+    assert structure.stands() is True

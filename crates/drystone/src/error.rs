@@ -310,7 +310,7 @@ pub enum FileError {
     /// A version this library does not know.
     #[error(
         "{file}: \"version\" is {found}, and this library reads versions up to {supported}: \
-         update drystone, or save the scene in that version"
+         update drystone, or save the scene as one of these"
     )]
     UnsupportedVersion {
         /// The file.

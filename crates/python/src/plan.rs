@@ -1,7 +1,6 @@
 //! `plan`, with the stability tests of the core or one from Python.
 
 use crate::{
-    arrays::vector,
     errors::{plan_error, scene_error},
     scene::Scene,
     verdict::Verdict,
@@ -88,17 +87,22 @@ pub fn generators(py: Python<'_>, scene: &Scene, cones: Option<(usize, String)>)
         bodies.extend([blocks.next().unwrap_or(-1), blocks.next().unwrap_or(-1)]);
     }
     let blocks = 0..assembly.blocks();
-    let bodies = numpy::PyArrayMethods::reshape(&vector(py, bodies), [assembly.generators().len(), 2])?;
+    let bodies = numpy::PyArrayMethods::reshape(&own(py, bodies), [assembly.generators().len(), 2])?;
     Ok(Generators {
         names: blocks.clone().map(|block| assembly.body(block).name.clone()).collect(),
-        indptr: vector(py, indptr).unbind(),
-        indices: vector(py, indices).unbind(),
-        data: vector(py, data).unbind(),
-        applied: vector(py, blocks.clone().flat_map(|block| assembly.applied(block)).copied().collect()).unbind(),
-        inverse_mass: vector(py, blocks.flat_map(|block| assembly.inverse_mass(block)).copied().collect()).unbind(),
+        indptr: own(py, indptr).unbind(),
+        indices: own(py, indices).unbind(),
+        data: own(py, data).unbind(),
+        applied: own(py, blocks.clone().flat_map(|block| assembly.applied(block)).copied().collect()).unbind(),
+        inverse_mass: own(py, blocks.flat_map(|block| assembly.inverse_mass(block)).copied().collect()).unbind(),
         bodies: bodies.unbind(),
-        contact: vector(py, assembly.generators().iter().map(|g| g.contact() as i64).collect()).unbind(),
+        contact: own(py, assembly.generators().iter().map(|g| g.contact() as i64).collect()).unbind(),
     })
+}
+
+/// An array that is the caller's to change: some solvers refuse matrices on memory that is read-only.
+fn own<T: numpy::Element>(py: Python<'_>, values: Vec<T>) -> Bound<'_, PyArray1<T>> {
+    PyArray1::from_vec(py, values)
 }
 
 /// A stability test written in Python: called with (indices of the blocks, index of the one added last).

@@ -14,6 +14,9 @@ from typing import TextIO
 
 from drystone.cli.errors import BAD_INPUT, INTERRUPTED, NOT_READ, InputError
 
+VALIDATOR = "Value error, "
+"""What newer parsers put before a reason; it tells the user nothing."""
+
 
 def main() -> None:
     """Run the command line given to the process."""
@@ -61,7 +64,7 @@ def _said(error: BaseException) -> str:
     # The parser's errors: one class in typer of today, another package's in older ones.
     format_message = getattr(error, "format_message", None)
     if format_message is not None:
-        return str(format_message() or error)
+        return str(format_message() or error).replace(VALIDATOR, "")
     if isinstance(error, MemoryError):
         return "there is not enough memory for this"
     if isinstance(error, OSError):

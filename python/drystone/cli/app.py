@@ -342,7 +342,7 @@ def import_(
         typer.Argument(
             metavar="FILE",
             help="A COMPAS assembly (.json), a folder of meshes or its manifest.json, MJCF (.xml), "
-            "URDF, or a mesh file (.obj, .stl, .ply, .off, .gltf, .glb).",
+            "URDF, or a mesh file (.obj, .stl, .ply, .off, .gltf, .glb, .3mf, .msh, .step).",
         ),
     ],
     output: Annotated[

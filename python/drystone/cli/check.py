@@ -83,7 +83,8 @@ def _drawn(verdict: Verdict, picture: Path | None) -> Drawn:
 
 def _add_settlement(scene: Scene, text: str) -> None:
     name, colon, moved = text.rpartition(":")
-    given, n = numbers(moved, f"--settle {text}"), scene.dimension
+    given = numbers(moved, f"--settle {text}") if colon else ()
+    n = scene.dimension
     turns = 1 if n == 2 else 3
     if not colon or len(given) not in (n, n + turns):
         raise InputError(

@@ -37,7 +37,7 @@ def load_scene(text: str) -> Scene:
         if builder is not None:
             return builder(**parameters_of(builder, parameters))
         if Path(name).name == name and not Path(name).suffix:
-            raise _neither(text, python_name(name))
+            raise neither(text, python_name(name))
     with reporting_files():
         return Scene.load(text)
 
@@ -56,7 +56,7 @@ def builder_of(name: str) -> Callable[..., Scene] | None:
     return getattr(scenes, python_name(name)) if python_name(name) in scenes.__all__ else None
 
 
-def _neither(text: str, name: str) -> InputError:
+def neither(text: str, name: str) -> InputError:
     """What to say of a word that is no file; the nearest scene's name with it."""
     from drystone import _core, scenes
 

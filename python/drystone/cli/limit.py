@@ -66,6 +66,6 @@ def _print(out: Console, found: Limit, picture: Path | None) -> None:
     colour = "green" if solved else "red" if found.status == "no_solution" else "yellow"
     out.print(str(found), style=f"bold {colour}")
     if found.mechanism:
-        out.print(motion_table(found.mechanism, found.scene.dimension))
+        out.print(motion_table(found.mechanism))
     if picture is not None:
         out.print(said_of(picture), soft_wrap=True)

@@ -49,6 +49,6 @@ def _print(found: Margin, picture: Path | None) -> None:
     if solved:
         out.print(f"Stands with {found.friction:.6g} times its friction and more.")
     if found.mechanism:
-        out.print(motion_table(found.mechanism, found.scene.dimension))
+        out.print(motion_table(found.mechanism))
     if picture is not None:
         out.print(said_of(picture), soft_wrap=True)

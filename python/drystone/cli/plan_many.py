@@ -52,6 +52,8 @@ def run(
         raise InputError(f"{folder} is a folder: say with -o into which folder its plans go")
     if output.resolve() == folder.resolve():
         raise InputError(f"{output}: plans go into another folder than the scenes")
+    if output.is_file():
+        raise InputError(f"{output} is a file: plans of a folder go into a folder")
     in_the_way = None if obstacles is None else load_scene(obstacles)
     try:
         # Ray tells of lost machines on standard output, which is for the answer.

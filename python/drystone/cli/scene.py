@@ -16,6 +16,7 @@ from drystone.cli.inputs import (
     STANDARD,
     builder_of,
     load_scene,
+    neither,
     parameters_of,
     picture_path,
     python_name,
@@ -37,7 +38,9 @@ class SceneGroup(TyperGroup):
             given = parameters_of(builder, parameters)
             options = [f"--{key.replace('_', '-')}={value}" for key, value in given.items()]
             args = [python_name(name), *options, *args[1:]]
-        elif self.get_command(ctx, args[0]) is None and (Path(args[0]).suffix or args[0] == "-"):
+        elif self.get_command(ctx, args[0]) is None:
+            if not (Path(args[0]).suffix or args[0] == STANDARD):
+                raise neither(args[0], python_name(name))
             args = ["draw", *args]
         return super().resolve_command(ctx, args)
 
@@ -98,12 +101,10 @@ def _command(builder: Callable[..., Scene], helps: dict[str, str]) -> Callable[.
         if output is None or str(output) == STANDARD:
             print(scene.to_json())
             return 0
+        drawn = output.suffix.lower() in (*PICTURES, ".html")
         with reporting_files():
-            if output.suffix.lower() in (*PICTURES, ".html"):
-                scene.draw(output)
-            else:
-                scene.save(output)
-        print(f"{len(scene)} bodies written to {output}")
+            (scene.draw if drawn else scene.save)(output)
+        print(said_of(output) if drawn else f"{len(scene)} bodies written to {output}")
         return 0
 
     parameters = [

@@ -18,6 +18,7 @@ from drystone.cli.inputs import (
 from drystone.cli.output import console, facts
 from drystone.common.cones import Pyramid
 from drystone.common.progress import RunProgress
+from drystone.common.text import counted
 from drystone.common.units import quantity
 from drystone.motion.modes import Formulation, Reuse
 from drystone.motion.run import Run
@@ -86,7 +87,7 @@ def _facts(made: Run) -> Table:
     told.add_row(
         "pivots",
         f"{made.pivots.sum()} ({made.major_cycles.sum()} major, {made.minor_cycles.sum()} minor) "
-        f"in {made.solves.sum()} solves",
+        f"in {counted(int(made.solves.sum()), 'solve')}",
     )
     settled = int(made.motionless.all(axis=1).sum())
     told.add_row("steps in which nothing moved", f"{settled} of {made.steps}")

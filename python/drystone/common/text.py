@@ -32,9 +32,14 @@ def _escaped(c: str) -> str:
     return c
 
 
-def counted(number: int, thing: str) -> str:
-    """1 block, 2 blocks."""
-    return f"{number} {thing}" if number == 1 else f"{number} {thing}s"
+def counted(number: int, thing: str, things: str | None = None) -> str:
+    """1 block, 2 blocks; 1 body, 2 bodies where the plural is given."""
+    return f"{number} {thing if number == 1 else things or thing + 's'}"
+
+
+def place(numbers: Iterable[float]) -> str:
+    """(0.5, 1), in four digits."""
+    return f"({', '.join(f'{x:.4g}' for x in numbers)})"
 
 
 def shorten(names: Iterable[str], limit: int = 8) -> str:

@@ -16,8 +16,11 @@ if TYPE_CHECKING:
 MOST_SAID = 4
 """Blocks that a verdict's text names; `Verdict.unsupported` has all."""
 
+MOST_TOUCHED = 8
+"""Bodies that the text on one block names; `Unsupported.touches` has all."""
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Unsupported:
     """A falling block that nothing bears from below."""
 
@@ -38,6 +41,9 @@ class Unsupported:
         if self.distance == 0.0:
             return f'{text}; "{nearest}" meets it at a corner or an edge that bears nothing.'
         return f'{text}; "{nearest}" is {self.distance:.3g} m away.'
+
+    def __repr__(self) -> str:
+        return f"<Unsupported: {self}>"
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,4 +88,6 @@ def _some(things: Sequence[Unsupported] | Sequence[NearMiss], called: str) -> li
 
 
 def _listed(names: Sequence[str]) -> str:
-    return ", ".join(f'"{shown(name)}"' for name in names)
+    told = ", ".join(f'"{shown(name)}"' for name in names[:MOST_TOUCHED])
+    rest = len(names) - MOST_TOUCHED
+    return f"{told} and {rest} more" if rest > 0 else told

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, overload
 
 from drystone import _core
+from drystone.common.text import place
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ContactForce:
     """The force that body `a` exerts on body `b` at one contact point, in newtons."""
 
@@ -47,6 +48,11 @@ class ContactForce:
             core.force,
             core.at_borders,
         )
+
+    def __repr__(self) -> str:
+        size = f"{self.normal_force:.4g} N normal, {self.tangential_force:.4g} N tangential"
+        where = f"{self.a!r} on {self.b!r} at {place(self.point)}"
+        return f"<ContactForce: {where}, {size}; {self.feature}>"
 
 
 WhichForces: TypeAlias = Literal["canonical", "any"]

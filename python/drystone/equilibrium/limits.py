@@ -9,11 +9,12 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, TextIO
 
 from drystone import _core
+from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, vector
-from drystone.common.text import counted, shorten
+from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
 from drystone.scene.scene import scene_of
@@ -29,7 +30,7 @@ behind them, if given, the moment beside it, N m: one number, in space three."""
 CoreForces = list[tuple[str, tuple[float, ...], tuple[float, float, float]]]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LimitEnd:
     """An end of the interval of load factors, with what proves it."""
 
@@ -57,6 +58,15 @@ class LimitEnd:
         forces = None if core.forces is None else ContactForces(None, ANY, core.forces)
         mechanism = dict(zip(core.names, core.velocities, strict=True))
         return cls(core.factor, mechanism, forces, core.imbalance, core.closing, core.bound)
+
+    def __repr__(self) -> str:
+        moving = f"{counted(len(self.mechanism), 'block')} in its mechanism"
+        names = f" ({shorten(self.mechanism)})" if self.mechanism else ""
+        return f"<LimitEnd: factor {self.factor:.6g}, {moving}{names}>"
+
+    def table(self, rows: int = MOST_ROWS) -> str:
+        """The velocities of the first `rows` blocks of the mechanism, as text."""
+        return later.table(self, rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything, in types that JSON knows; what is no finite number is None."""
@@ -137,6 +147,17 @@ class Limit(Paged):
 
     def __repr__(self) -> str:
         return f"<Limit: {self}>"
+
+    def table(self, rows: int = MOST_ROWS) -> str:
+        """The velocities of the first `rows` blocks that collapse at the greatest factor, as text.
+
+        >>> import drystone as ds
+        >>> print(ds.limit(ds.scenes.column(3), push={"2": (1, 0)}).table())
+          collapses   x [m/s]   y [m/s]   turns [rad/s]
+         ───────────────────────────────────────────────
+          2                 1         0               0
+        """
+        return later.table(self, rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene and the forces, in types that JSON knows."""

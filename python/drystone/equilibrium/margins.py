@@ -8,11 +8,12 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias, cast
 
 from drystone import _core
+from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, number
-from drystone.common.text import counted, shorten
+from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.limits import LimitEnd, finite, limit, movable
 from drystone.scene import Scene
 from drystone.scene.scene import scene_of
@@ -151,6 +152,10 @@ class Margin(Paged):
 
     def __repr__(self) -> str:
         return f"<Margin: {self}>"
+
+    def table(self, rows: int = MOST_ROWS) -> str:
+        """The velocities of the first `rows` blocks that collapse, as text."""
+        return later.table(self, rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the scene and the forces, in types that JSON knows."""

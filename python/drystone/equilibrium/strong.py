@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
+from drystone.common import later
 from drystone.common.drawn import Paged
-from drystone.common.text import counted, shorten
+from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
 
@@ -68,6 +69,10 @@ class Escape(Paged):
 
     def __repr__(self) -> str:
         return f"<{self}>"
+
+    def table(self, rows: int = MOST_ROWS) -> str:
+        """The accelerations of the first `rows` blocks that move, as text."""
+        return later.table(self, rows)
 
     def to_dict(self) -> dict[str, Any]:
         """Accelerations, and the forces as those of a verdict."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.drawn import Paged
-from drystone.common.numbers import name_of
+from drystone.common.numbers import name_of, names_of
 from drystone.equilibrium.contact_force import CANONICAL, WhichForces, which_forces
 from drystone.equilibrium.limits import Limit, Push, core_push, limit_of
 from drystone.equilibrium.verdict import Verdict
@@ -57,7 +57,7 @@ class Structure(Paged):
         self._scene = copy.copy(scene_of(scene))
         self._cones = core_cones(facets, cone)
         self._hold(_core.Structure(scene._core, self._cones))
-        self.add(*blocks)
+        self.add(*(names_of(blocks) or ()))
 
     def _hold(self, core: _core.Structure) -> None:
         self._core = core

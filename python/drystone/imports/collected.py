@@ -12,6 +12,7 @@ from drystone._core import SceneError
 from drystone.imports.pose import Pose
 from drystone.imports.weight import Weight
 from drystone.meshes.hull import hull_volume
+from drystone.meshes.part import made_of
 from drystone.meshes.surface import signed_volumes
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ class FormatError(SceneError):
     """A file cannot be imported; the text names it, says why, and what to do."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ImportedBody:
     """One rigid body: convex pieces (k, 3) in the world, metres, or the vertices of its surface."""
 
@@ -48,6 +49,10 @@ class ImportedBody:
     density is the mass divided by the sum of their volumes."""
     triangles: NDArray[np.int64] | None = None
     """(n, 3), of a body kept as a surface: numbers of its vertices, which are its one piece."""
+
+    def __repr__(self) -> str:
+        weight = "fixed" if self.fixed else f"{self.mass:.4g} kg"
+        return f"<ImportedBody: {self.name!r}, {made_of(self.pieces, self.triangles)}, {weight}>"
 
     @property
     def volume(self) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 
 from drystone._core import DrystoneError, SceneError
 from drystone.common.choices import Joints, Split, Up
+from drystone.common.text import counted
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.compas_kind import is_assembly
@@ -54,7 +55,7 @@ TRIES = 5
 """Scenes made in search of it: with more tolerance what overlaps is a little deeper at most."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Imported:
     """A scene out of another tool's file, and what became of everything in the file."""
 
@@ -66,6 +67,11 @@ class Imported:
     left_out: list[LeftOut]
     messages: list[str]
     """What was repaired, or taken in another way than it was written."""
+
+    def __repr__(self) -> str:
+        told = f"{self.format}, {counted(len(self.bodies), 'body', 'bodies')}"
+        told += f", {len(self.left_out)} left out, {counted(len(self.messages), 'message')}"
+        return f"<Imported: {told}>"
 
     def to_dict(self) -> dict[str, Any]:
         """What `drystone import --json` prints."""

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from drystone import _core
-from drystone.common.text import counted, shorten
+from drystone.common.text import counted, shorten, shown
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ScenePlan:
     """The answer for one scene."""
 
@@ -34,6 +34,10 @@ class ScenePlan:
     file: Path | None
     """The file that holds the answer."""
     _record: dict[str, Any] | None = field(repr=False)
+
+    def __repr__(self) -> str:
+        ending = self.status if self.state == "planned" else f"{self.state}: {self.error:.80}"
+        return f"<ScenePlan: {shown(self.name)!r}, {shown(ending)}>"
 
     @property
     def plan(self) -> dict[str, Any]:
@@ -76,7 +80,7 @@ def _read(file: Path) -> dict[str, Any]:
     return record
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class ManyPlans:
     """The answers for many scenes, in the order of the scenes; equal ones are there once.
 
@@ -130,6 +134,9 @@ class ManyPlans:
         if self.reused:
             parts.append(f"{self.reused} taken from before")
         return "; ".join(parts) + (". Interrupted." if self.interrupted else ".")
+
+    def __repr__(self) -> str:
+        return f"<ManyPlans: {self}>"
 
     def to_dict(self) -> dict[str, Any]:
         """Everything but the plans themselves, in types that JSON knows."""

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from drystone.common.text import counted
 from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
 from drystone.meshes.hull import deepest, hull_corners, hull_triangles, hull_volume
@@ -53,7 +54,7 @@ MOST_CORNERS = 2000
 """Corners of a convex piece, no more than a scene takes: contacts are found between its faces."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Part:
     """One rigid body, made of convex pieces that touch and do not overlap, or within a surface."""
 
@@ -72,12 +73,23 @@ class Part:
     triangles: NDArray[np.int64] | None = None
     """(n, 3), counter-clockwise from outside, of a body within a surface."""
 
+    def __repr__(self) -> str:
+        made = made_of(self.pieces, self.triangles)
+        return f"<Part: {self.name!r}, {made}, {self.volume:.4g} m^3>"
+
     @property
     def density_factor(self) -> float:
         """What makes the pieces weigh as much as the mesh: 1 unless it was simplified."""
         if self.simplification is None:
             return 1.0
         return self.simplification.volume_before / self.simplification.volume_after
+
+
+def made_of(pieces: list[NDArray[np.float64]], triangles: NDArray[np.int64] | None) -> str:
+    """A body's shape in words."""
+    if triangles is None:
+        return counted(len(pieces), "convex piece")
+    return f"a surface of {counted(len(triangles), 'triangle')}"
 
 
 BEYOND_USE = (ArithmeticError, LookupError, MemoryError, ValueError)

@@ -10,6 +10,8 @@ from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.drawn import Drawn
 from drystone.common.numbers import name_of, number, whole
+from drystone.common.text import counted
+from drystone.common.units import quantity
 from drystone.equilibrium.contact_force import ContactForce
 from drystone.motion.modes import COULOMB_TOLERANCE, Formulation, Progress, Reuse
 from drystone.motion.run import Run
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class StepRecord:
     """What one step did; the fields are those of `Run`, for one step."""
 
@@ -50,6 +52,14 @@ class StepRecord:
     took their place. "no_solution" is proved; after another word there may be some."""
     inconsistent: tuple[str, str, str] | None
     """The contact to blame for it: names of the two bodies, and what meets."""
+
+    def __repr__(self) -> str:
+        moved = int((~self.motionless).sum())
+        told = f"{moved} of {counted(len(self.motionless), 'body', 'bodies')} moved"
+        told += f"; {counted(self.pivots, 'pivot')}, {counted(self.solves, 'solve')}"
+        told += "" if self.exact else f", not exact (off by {self.friction_error:.1e} m/s)"
+        told += "" if self.inconsistent is None else ", by impulses"
+        return f"<StepRecord: {told}, {quantity(self.seconds, 's')}>"
 
 
 class World(Adding, Drawn):

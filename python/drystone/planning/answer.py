@@ -59,7 +59,7 @@ class TestRecord:
     stable: bool
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Blocked:
     """A block that cannot leave along a straight line."""
 
@@ -71,6 +71,10 @@ class Blocked:
     def by(self) -> tuple[str, ...]:
         """Every body that is in the way in some direction."""
         return tuple(dict.fromkeys(name for _, names in self.ways for name in names))
+
+    def __repr__(self) -> str:
+        ways = counted(len(self.ways), "direction")
+        return f"<Blocked: {self.name!r} in {ways}, by {shorten(self.by)}>"
 
 
 @dataclass(frozen=True, slots=True)

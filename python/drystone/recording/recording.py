@@ -26,7 +26,7 @@ POSE = {2: 3, 3: 7}
 """Numbers of a pose, by dimension."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class FrameForces:
     """Contact forces of all frames, one after another: frame k's are offsets[k]:offsets[k + 1].
 
@@ -54,8 +54,12 @@ class FrameForces:
         for name in ("points", "vectors"):
             _shaped(getattr(self, name), (total, dimension), name)
 
+    def __repr__(self) -> str:
+        frames = np.size(self.offsets) - 1
+        return f"<FrameForces: {len(np.asarray(self.points))} forces in {frames} frames>"
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Series:
     """One chart under the picture."""
 
@@ -69,8 +73,11 @@ class Series:
     """What is shown of steps that have no frame of their own: the sum of their values with that of
     the next frame, or the least of these."""
 
+    def __repr__(self) -> str:
+        return f"<Series: {self.name!r}, {np.size(self.values)} frames>"
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Recording:
     """What the viewer plays. Raises ValueError, naming the array, if shapes do not fit together.
 
@@ -106,6 +113,10 @@ class Recording:
     """Lines under the picture: what the reader has to know."""
     details: Sequence[str] = field(default=())
     """Lines beside the charts, seen by those who open them: how much work it took."""
+
+    def __repr__(self) -> str:
+        frames, bodies = np.shape(self.states)
+        return f"<Recording: {self.kind}, {frames} frames of {bodies} bodies>"
 
     @property
     def dimension(self) -> Literal[2, 3]:

@@ -7,9 +7,13 @@ from collections.abc import Mapping, Sequence
 from functools import singledispatch
 from typing import TYPE_CHECKING
 
+from drystone.common.numbers import whole
 from drystone.common.text import MOST_ROWS, shown
 from drystone.common.units import scale_of
+from drystone.equilibrium.limits import Limit, LimitEnd
+from drystone.equilibrium.margins import Margin
 from drystone.equilibrium.settled import Settled
+from drystone.equilibrium.strong import Escape
 from drystone.equilibrium.verdict import Verdict
 from drystone.motion.run import Run
 from drystone.planning.answer import Plan
@@ -63,6 +67,13 @@ def text_of(made: Table) -> str:
     return "\n".join(line for line in lines if line)
 
 
+def table_of(answer: object, rows: int = MOST_ROWS) -> str:
+    """What `.table(rows)` gives; ValueError for a number of rows that is none."""
+    if whole(rows, "rows") < 0:
+        raise ValueError(f"rows is {rows}: it must be zero or more")
+    return text(answer, rows)
+
+
 @singledispatch
 def text(answer: object, rows: int = MOST_ROWS) -> str:
     """The first `rows` of an answer's table, as lines of text."""
@@ -72,6 +83,18 @@ def text(answer: object, rows: int = MOST_ROWS) -> str:
 @text.register(Verdict)
 def _(verdict: Verdict, rows: int = MOST_ROWS) -> str:
     return text_of(verdict_table(verdict, rows, IN_PYTHON))
+
+
+@text.register(Escape)
+def _(escape: Escape, rows: int = MOST_ROWS) -> str:
+    return text_of(_fall_table(escape, rows, IN_PYTHON))
+
+
+@text.register(LimitEnd)
+@text.register(Limit)
+@text.register(Margin)
+def _(answer: LimitEnd | Limit | Margin, rows: int = MOST_ROWS) -> str:
+    return text_of(motion_table(answer.mechanism, rows, IN_PYTHON))
 
 
 @text.register(Settled)
@@ -113,25 +136,27 @@ def _force_table(verdict: Verdict, rows: int, more: str) -> Table:
     return cut(made, len(verdict.forces), rows, more)
 
 
-def _fall_table(verdict: Verdict, rows: int, more: str) -> Table:
+def _fall_table(answer: Verdict | Escape, rows: int, more: str) -> Table:
     titles = ["x [m/s²]", "y [m/s²]", "turns [rad/s²]"]
-    if verdict.scene.dimension == 3:
+    if answer.scene.dimension == 3:
         titles = [f"{axis} [m/s²]" for axis in "xyz"] + [f"turns {axis} [rad/s²]" for axis in "xyz"]
     made = table("falls", *titles)
-    for name in verdict.falling[:rows]:
-        made.add_row(shown(name), *_cells(verdict.acceleration(name)))
-    return cut(made, len(verdict.falling), rows, more)
+    for name in answer.falling[:rows]:
+        made.add_row(shown(name), *_cells(answer.acceleration(name)))
+    return cut(made, len(answer.falling), rows, more)
 
 
-def motion_table(motion: Mapping[str, NDArray[np.float64]], dimension: int) -> Table:
+def motion_table(
+    motion: Mapping[str, NDArray[np.float64]], rows: int = MOST_ROWS, more: str = IN_JSON
+) -> Table:
     """How blocks move in a collapse."""
     titles = ["x [m/s]", "y [m/s]", "turns [rad/s]"]
-    if dimension == 3:
+    if any(len(velocity) == 6 for velocity in motion.values()):  # in space
         titles = [f"{axis} [m/s]" for axis in "xyz"] + [f"turns {axis} [rad/s]" for axis in "xyz"]
     made = table("collapses", *titles)
-    for name in list(motion)[:MOST_ROWS]:
+    for name in list(motion)[:rows]:
         made.add_row(shown(name), *_cells(motion[name]))
-    return cut(made, len(motion))
+    return cut(made, len(motion), rows, more)
 
 
 def joints_table(settled: Settled, rows: int = MOST_ROWS, more: str = IN_JSON) -> Table:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from drystone import _core
+from drystone.common.text import place
 
 if TYPE_CHECKING:
     import numpy as np
@@ -51,7 +52,7 @@ class Body:
         return x + cos * a - sin * b, y + sin * a + cos * b
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Piece:
     """One convex piece of a body in space."""
 
@@ -60,8 +61,11 @@ class Piece:
     faces: tuple[tuple[int, ...], ...]
     """Vertices of each face, counter-clockwise seen from outside."""
 
+    def __repr__(self) -> str:
+        return f"<Piece: {len(self.vertices)} corners, {len(self.faces)} faces>"
 
-@dataclass(frozen=True, slots=True, eq=False)
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Surface:
     """The closed surface of a body in space."""
 
@@ -69,6 +73,9 @@ class Surface:
     """(k, 3), metres, in the body's frame, whose origin is the centre of mass."""
     triangles: NDArray[np.uint32]
     """(n, 3): vertices of each triangle, counter-clockwise seen from outside."""
+
+    def __repr__(self) -> str:
+        return f"<Surface: {len(self.vertices)} vertices, {len(self.triangles)} triangles>"
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
@@ -124,7 +131,7 @@ class Solid:
         return self.center_of_mass
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Contact:
     """One point where body `a` touches body `b`."""
 
@@ -144,11 +151,15 @@ class Contact:
     """Whether only borders meet here: a corner a corner, in space also a corner an edge or an edge
     an edge along it. `normal` is then that of slightly rounded ones."""
 
+    def __repr__(self) -> str:
+        where = f"{self.a!r} - {self.b!r} at {place(self.point)}"
+        how = f"normal {place(self.normal)}, gap {self.gap:.3g} m"
+        return f"<Contact: {where}, {how}; {self.feature}>"
+
 
 def _line(kind: str, body: Body | Solid) -> str:
-    at = ", ".join(f"{x:.4g}" for x in body.center_of_mass)
     weight = "fixed" if body.fixed else f"{body.mass:.4g} kg"
-    return f"<{kind}: {body.name!r}, {weight}, at ({at})>"
+    return f"<{kind}: {body.name!r}, {weight}, at {place(body.center_of_mass)}>"
 
 
 def planar(bodies: Iterable[Body | Solid]) -> list[Body]:

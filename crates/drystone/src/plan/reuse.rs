@@ -21,7 +21,7 @@ use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 /// its force and in which the weights do work: the way in which it falls.
 ///
 /// Once the pivots of a search have taken longer than many verdicts from nothing would, blocks that bear by straight pressure
-/// are told without the solver, by [`Takedown`]'s lemma. It hears of them when it is asked again.
+/// are told without the solver, by `Takedown`'s lemma. It hears of them when it is asked again.
 #[derive(Debug)]
 pub struct Reuse<'a> {
     assembly: &'a Assembly,

@@ -12,7 +12,7 @@
 //! - find motionless: `motionless.rs`, whose blocks keep their place bit for bit;
 //! - integrate: `integrate/`, and overlaps are taken back.
 //!
-//! Each is a function of plain data ([`State`](state::State), what the step before left) and knows the stages before it only. `laws/`
+//! Each is a function of plain data (`State`, what the step before left) and knows the stages before it only. `laws/`
 //! says which problems are solved in which order, [`World`] holds the data, and what changes it is above.
 //!
 //! [`run`] makes many steps and records them. Loomis and Balkcom, Computation reuse for rigid-body dynamics (2006), section

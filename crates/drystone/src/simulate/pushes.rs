@@ -13,7 +13,7 @@ impl<S: Moving> World<S> {
     ///
     /// # Errors
     /// [`SimulationError::Fixed`], [`SimulationError::NotFinite`], [`SimulationError::OutOfBounds`],
-    /// [`SceneError::UnknownName`].
+    /// [`SceneError::UnknownName`](crate::SceneError::UnknownName).
     pub fn set_velocity(&mut self, name: &str, velocity: S::Velocity) -> Result<(), SimulationError> {
         let i = self.movable(name, "velocity", velocity.as_ref(), VELOCITY)?;
         self.state.velocities[i] = S::to_own_axes(&self.state.scene.bodies()[i], &velocity);

@@ -44,7 +44,7 @@ use values::Values;
 /// Decides `h in cone(G)` on growing and shrinking sets of rows. A column takes part once all its rows are present.
 ///
 /// Its parts, each with what always holds of it, in the order in which an answer needs them: [`Self::solve`] prices columns
-/// with the multipliers, a [`Pivot`] changes the [`Basis`], the [`Values`] follow and with them the [`Balance`]; when all
+/// with the multipliers, a `Pivot` changes the `Basis`, the `Values` follow and with them the `Balance`; when all
 /// are feasible it is inside.
 ///
 /// Stopped on the way ([`crate::interrupt`]), it is of no further use: take a new one.

@@ -7,7 +7,7 @@ use super::{ActiveFactor, FactorNumbers, LOST, RankOne, SingularBlock, symbolic:
 use crate::{interrupt::poll, matrix::SparseColumns};
 use std::sync::Arc;
 
-/// Values of `L` and `D` on a [`Symbolic`] pattern that is shared by all clones.
+/// Values of `L` and `D` on a `Symbolic` pattern that is shared by all clones.
 #[derive(Debug, Clone)]
 pub struct SparseFactor {
     symbolic: Arc<Symbolic>,

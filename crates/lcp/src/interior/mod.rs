@@ -19,7 +19,7 @@
 //! ```
 //!
 //! a matrix of one block for each body and one for each pair that touches, however many points or edges lie between:
-//! [`matrix`]. Its pattern is analysed once. The proximal term delta on the forces (Friedlander and Orban 2012; Schwan and
+//! `matrix.rs`. Its pattern is analysed once. The proximal term delta on the forces (Friedlander and Orban 2012; Schwan and
 //! others, PIQP, 2023) makes structures with stresses of their own, where (2) has many f, the normal case.
 //!
 //! *When.* From nothing, or where friction must carry much: some ten to twenty iterations whatever the size. Where one block

@@ -9,7 +9,7 @@ pub struct Gauss {
     pub inverse_mass: Vec<f64>,
     /// `F`, body after body: N, N m.
     pub load: Vec<f64>,
-    /// A load that acts times a factor t, beside [`Self::load`]: N, N m; none if empty. See [`Gauss::greatest`].
+    /// A load that acts times a factor t, beside [`Self::load`]: N, N m; none if empty. See [`Gauss::greatest_while`].
     pub push: Vec<f64>,
     /// Where bodies touch.
     pub points: Vec<Point>,

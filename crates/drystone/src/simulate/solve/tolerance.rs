@@ -4,7 +4,7 @@
 /// Speeds above 1 m/s are known to a share of themselves, so there it is this share.
 pub const FRICTION_TOLERANCE: f64 = 1e-10;
 
-/// What is accepted after [`PATIENCE`] solves: where many contacts are about to slide, rounding is felt before
+/// What is accepted after `PATIENCE` solves: where many contacts are about to slide, rounding is felt before
 /// [`FRICTION_TOLERANCE`] is reached. A contact that parts at this speed has opened by a nanometre after a second.
 pub const FRICTION_ACCEPTED: f64 = 1e-9;
 
