@@ -159,7 +159,7 @@ def test_the_step_of_one_block_that_proves_long_lets_others_in() -> None:
     structure = ds.Structure(scene, blocks=names)
     assert not structure.stands()
     structure.add(plinth["name"])
-    # Another thread asks for the interrupt. Kept out until the step was over, it would come too late.
+    # Another thread asks for the interrupt: kept out until the step is over, it would be too late.
     with ctrl_c() as interrupt:
         other = threading.Timer(SOON / 2, interrupt.soon)
         other.start()
