@@ -80,6 +80,15 @@ def test_bytes_that_are_no_forces_are_an_error() -> None:
         ds.ContactForces._again(state[: len(state) // 2], kind)
 
 
+def test_an_answer_that_is_no_is_false() -> None:
+    for scene in (ds.scenes.wall(2, 2), ds.scenes.arch(9, friction=0.0)):
+        verdict, plan = ds.check(scene), ds.plan(scene)
+        assert bool(verdict) is verdict.stable
+        assert bool(plan) is plan.found
+    assert not verdict
+    assert not plan
+
+
 def test_json_in_pieces_is_the_same_as_the_dictionary() -> None:
     scene = ds.Scene()
     scene.add_box((0, -0.5), (4, 1), name="ground", fixed=True)

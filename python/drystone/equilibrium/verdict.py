@@ -39,7 +39,7 @@ Method: TypeAlias = Literal["equilibrium", "interior", "lcp"]
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Verdict(Paged):
-    """The answer of `check`."""
+    """The answer of `check`. It is true where it is `stable`: `if drystone.check(scene): ...`."""
 
     stable: bool
     """Whether some contact forces within the friction cones balance every block.
@@ -142,6 +142,9 @@ class Verdict(Paged):
             scene,
             _certain(core, scene, cone),
         )
+
+    def __bool__(self) -> bool:
+        return self.stable
 
     def __copy__(self) -> Verdict:
         return replace(self, scene=copy.copy(self.scene))

@@ -91,7 +91,7 @@ class Move:
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Plan(Paged):
-    """The answer of `plan`."""
+    """The answer of `plan`. It is true where an order was `found`."""
 
     found: bool
     status: str
@@ -194,6 +194,9 @@ class Plan(Paged):
             margin,
             strong,
         )
+
+    def __bool__(self) -> bool:
+        return self.found
 
     def __copy__(self) -> Plan:
         return replace(self, scene=copy.copy(self.scene), whole=copy.copy(self.whole))
