@@ -18,7 +18,7 @@ mod face;
 mod section;
 
 use crate::{
-    check::Verdict,
+    check::verdict::Verdict,
     contact::Contact,
     formulate::{Assembly, BlockSet, BodySpace, Components, ContactForce, FrictionCone},
     geometry::length,

@@ -6,7 +6,7 @@ mod interior;
 mod pivots;
 mod proved;
 mod takedown;
-mod verdict;
+pub(crate) mod verdict;
 
 use crate::{
     equilibrium::{Effort, equilibrium_of, equilibrium_while},
