@@ -72,6 +72,18 @@ pub(crate) fn collapse_motion(assembly: &Assembly, solver: &ConeSolver) -> Vec<(
     moving
 }
 
+/// The blocks of a motion, each with the work that its load does.
+pub(crate) fn with_work(
+    assembly: &Assembly,
+    motion: impl IntoIterator<Item = (usize, Components)>,
+) -> Vec<(usize, f64)> {
+    let work = |(block, velocity): (usize, Components)| {
+        let loads = assembly.components().iter().zip(assembly.applied(block));
+        (block, loads.map(|(&k, load)| load * velocity[k]).sum())
+    };
+    motion.into_iter().map(work).collect()
+}
+
 /// A block slower than this share of the fastest is at rest in a motion: rounding of the multipliers.
 const AT_REST_BESIDE: f64 = 1e-9;
 

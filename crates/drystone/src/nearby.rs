@@ -8,15 +8,11 @@ use crate::{
     proof::proved,
 };
 use drystone_lcp::interior::End;
-use std::sync::Arc;
-
-/// Forces along all generators, positive where they are known.
-pub(crate) type Forces = Arc<[f64]>;
 
 /// What was found.
 pub(crate) enum Nearby {
-    /// It stands, with these forces.
-    Stands(Forces),
+    /// It stands, with these forces along all generators, positive where they are known.
+    Stands(Vec<f64>),
     /// It falls: the blocks that move.
     Falls(Vec<(usize, Components)>),
 }
@@ -29,12 +25,7 @@ pub(crate) struct Solved {
 
 /// What the method proves of these blocks, of which some are held, first by forces near those of the structure before. None if it
 /// proves neither that they stand nor that they fall.
-pub(crate) fn solved(
-    assembly: &Assembly,
-    blocks: &BlockSet,
-    held: &[usize],
-    before: Option<&Forces>,
-) -> Option<Solved> {
+pub(crate) fn solved(assembly: &Assembly, blocks: &BlockSet, held: &[usize], before: Option<&[f64]>) -> Option<Solved> {
     let (mut hands, mut free) = (BlockSet::empty(assembly.blocks()), blocks.clone());
     for &block in held {
         hands.insert(block);
@@ -46,7 +37,7 @@ pub(crate) fn solved(
         let proved = proved(assembly, &free, &motion, &forces, cone, found.end == End::AtRest);
         let factors = found.iterations;
         let found = if proved.stands {
-            Nearby::Stands(space.magnitudes(&found).into())
+            Nearby::Stands(space.magnitudes(&found))
         } else if proved.falls() {
             Nearby::Falls(proved.falling)
         } else {

@@ -8,8 +8,12 @@ use super::stability::{TestOutcome, Tested, collapse_of};
 use super::touching::Touching;
 use crate::{
     formulate::Assembly,
-    nearby::{self, Forces, Nearby, Put},
+    nearby::{self, Nearby, Put},
 };
+use std::rc::Rc;
+
+/// Forces along all generators, positive where they are known.
+pub(super) type Forces = Rc<[f64]>;
 
 /// What was found, and forces that hold it if it stands.
 pub(super) struct Answer {
@@ -29,11 +33,11 @@ pub(super) fn by_interior_point(
     if let Some(motion) = nearby::falls_nearby(assembly, &|block| touching.neighbours(block).to_vec(), put) {
         return Some(falling(motion));
     }
-    Some(match nearby::solved(assembly, put.blocks, put.held, before)?.found {
+    Some(match nearby::solved(assembly, put.blocks, put.held, before.map(|forces| &forces[..]))?.found {
         Nearby::Falls(motion) => falling(motion),
         Nearby::Stands(forces) => {
             let outcome = TestOutcome { stands: true, borderline: false, pivots: 0 };
-            Answer { tested: Tested { outcome, collapse: None }, forces: Some(forces) }
+            Answer { tested: Tested { outcome, collapse: None }, forces: Some(forces.into()) }
         }
     })
 }

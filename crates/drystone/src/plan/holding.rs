@@ -12,7 +12,7 @@
 //! at most `hands` blocks are held at any moment, and a new block is held before an old one is let go. So H' can follow H
 //! when X is put up if `|H + (H' - X)| <= hands`; from any hold on, so can a part of it.
 
-use super::by_interior::{by_interior_point, falls_among};
+use super::by_interior::{Forces, by_interior_point, falls_among};
 use super::collapse::Collapse;
 use super::hitting::next_hitting_set;
 use super::reuse::certified_collapse;
@@ -21,7 +21,7 @@ use super::touching::Touching;
 use crate::{
     formulate::{Assembly, BlockRows, BlockSet},
     ladder::Ladder,
-    nearby::{Forces, Put},
+    nearby::Put,
 };
 use drystone_lcp::cone::{ConeSolver, Mark, Membership};
 

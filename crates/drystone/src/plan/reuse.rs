@@ -1,6 +1,6 @@
 //! The stability test of the planner that keeps the forces of the stable parent on a basis of the generators.
 
-use super::by_interior::by_interior_point;
+use super::by_interior::{Forces, by_interior_point};
 use super::collapse::Collapse;
 use super::stability::{PlanError, StabilityTest, TestOutcome, Tested, by_accelerations};
 use super::touching::Touching;
@@ -8,7 +8,7 @@ use crate::{
     equilibrium::put_up,
     formulate::{Assembly, BlockRows, BlockSet},
     ladder::Ladder,
-    nearby::{Forces, Put},
+    nearby::Put,
     takedown::Takedown,
 };
 use drystone_lcp::cone::{ConeSolver, Mark, Membership};

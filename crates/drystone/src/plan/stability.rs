@@ -3,7 +3,7 @@
 use super::collapse::Collapse;
 use crate::{
     crossover::or_from_interior,
-    equilibrium::collapse_motion,
+    equilibrium::{collapse_motion, with_work},
     error::SceneError,
     formulate::{Assembly, BlockSet, Components},
     judgement::{Judgement, judge, moving_blocks},
@@ -190,11 +190,7 @@ pub(super) fn solve_by(
 
 /// A motion v of a fall is a collapse motion: `G' v >= 0` and `F' v > 0`. Accelerations are one (`F' v = v' M v`).
 pub(super) fn collapse_of(assembly: &Assembly, motion: impl IntoIterator<Item = (usize, Components)>) -> Collapse {
-    let work = |(block, velocity): (usize, Components)| {
-        let components = assembly.components().iter().zip(assembly.applied(block));
-        (block, components.map(|(&k, load)| load * velocity[k]).sum())
-    };
-    Collapse::new(motion.into_iter().map(work).collect())
+    Collapse::new(with_work(assembly, motion))
 }
 
 /// Every test solves its sub-assembly from scratch.

@@ -5,7 +5,7 @@
 //! done. Only the blocks that came and went are looked at.
 
 use super::putting_up::neighbours;
-use crate::formulate::{Assembly, BlockRows, Components};
+use crate::formulate::{Assembly, BlockRows};
 use drystone_lcp::cone::ConeSolver;
 
 /// A collapse is carried over while at least this share of its work is left: far above the rounding in it.
@@ -28,15 +28,6 @@ pub(super) enum Motion<'a> {
 }
 
 impl Fall<'_> {
-    /// The blocks of a motion, each with the work of its load.
-    pub fn with_work(assembly: &Assembly, motion: &[(usize, Components)]) -> Vec<(usize, f64)> {
-        let work = |(block, velocity): &(usize, Components)| {
-            let loads = assembly.components().iter().zip(assembly.applied(*block));
-            (*block, loads.map(|(&k, load)| load * velocity[k]).sum())
-        };
-        motion.iter().map(work).collect()
-    }
-
     /// Whether the structure falls in the same way when these blocks have come and gone.
     pub fn carries_over(&self, new: &[usize], gone: &[usize]) -> bool {
         if new.iter().any(|&block| self.touches_what_moves(block)) {

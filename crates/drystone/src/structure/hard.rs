@@ -4,10 +4,11 @@
 //! from nothing. Since a structure may become easy again as blocks come and go, pivots from nothing get a chance now and then: with as
 //! much effort as the answers since the last one took, so that no sequence takes more than twice as long as without them.
 
-use super::{fall::Fall, putting_up::neighbours};
+use super::putting_up::neighbours;
 use crate::{
+    equilibrium::with_work,
     formulate::{Assembly, BlockSet},
-    nearby::{Forces, Nearby, Put, Solved, falls_nearby, solved},
+    nearby::{Nearby, Put, Solved, falls_nearby, solved},
 };
 use serde::{Deserialize, Serialize};
 
@@ -64,18 +65,15 @@ impl Hard {
             self.falling = motion;
             return Some(false);
         }
-        let before: Option<Forces> = self.forces.take().map(Into::into);
-        let found = solved(assembly, blocks, &[], before.as_ref());
-        self.forces = before.map(|before| before.to_vec());
-        let Solved { found, factors } = found?;
+        let Solved { found, factors } = solved(assembly, blocks, &[], self.forces.as_deref())?;
         self.factors += factors;
         Some(match found {
             Nearby::Stands(forces) => {
-                self.forces = Some(forces.to_vec());
+                self.forces = Some(forces);
                 true
             }
             Nearby::Falls(motion) => {
-                self.falling = Fall::with_work(assembly, &motion);
+                self.falling = with_work(assembly, motion);
                 false
             }
         })
@@ -110,5 +108,5 @@ fn falls_by_itself(assembly: &Assembly, blocks: &BlockSet, new: &[usize]) -> Opt
         touched
     };
     let falls = |&added: &usize| falls_nearby(assembly, &touched, Put { blocks, held: &[], added });
-    new.iter().find_map(falls).map(|motion| Fall::with_work(assembly, &motion))
+    new.iter().find_map(falls).map(|motion| with_work(assembly, motion))
 }
