@@ -88,24 +88,23 @@ const LONG: usize = 1 << 16;
 
 /// The pairs of edges that span a face of the Minkowski difference, with its unit normal out of `a`.
 fn for_each_crossing<'a>(a: &'a Polyhedron, b: &'a Polyhedron, mut found: impl FnMut(&'a Edge, &'a Edge, Vector3)) {
+    let arcs_of_b: Vec<Arc> = b.edges().iter().map(|edge| Arc::of(b, edge, -1.0)).collect();
     let mut work = 0;
     for edge_a in a.edges() {
         work += CROSSING * b.edges().len();
         if work > LONG {
             poll(std::mem::take(&mut work));
         }
-        let along_a = direction(a, edge_a);
-        let [a0, a1] = edge_a.faces.map(|face| a.normals()[face]);
-        for edge_b in b.edges() {
-            let [b0, b1] = edge_b.faces.map(|face| -b.normals()[face]);
-            let along_b = direction(b, edge_b);
-            if !arcs_cross([a0, a1], along_a, [b0, b1], along_b) {
+        let arc_a = Arc::of(a, edge_a, 1.0);
+        for (edge_b, arc_b) in b.edges().iter().zip(&arcs_of_b) {
+            if !arc_a.crosses(arc_b) {
                 continue;
             }
-            let across = along_a.cross(along_b);
+            let across = arc_a.along.cross(arc_b.along);
             let sine = across.length();
             if sine > PARALLEL {
                 // Out of a: on the side of the faces beside its edge.
+                let [a0, a1] = arc_a.ends;
                 found(edge_a, edge_b, if across.dot(a0 + a1) < 0.0 { -across / sine } else { across / sine });
             }
         }
@@ -124,15 +123,33 @@ pub(super) fn direction(of: &Polyhedron, edge: &Edge) -> Vector3 {
     (to - from).normalize_or_zero()
 }
 
-/// Whether the arc between the normals beside one edge crosses that between those beside another. An edge's direction is
-/// square to both of its normals, so that it tells the side of its arc's plane. An end that lies on the other's plane to
-/// within [`PARALLEL`] does not count: there a face's normal parts the polyhedra as well.
-fn arcs_cross([a0, a1]: [Vector3; 2], along_a: Vector3, [b0, b1]: [Vector3; 2], along_b: Vector3) -> bool {
-    let (b0_side, b1_side) = (b0.dot(along_a), b1.dot(along_a));
-    let (a0_side, a1_side) = (a0.dot(along_b), a1.dot(along_b));
-    // Each arc has its ends on both sides of the other's plane, and they lie on the same half of the sphere.
-    let triple = |u: Vector3, v: Vector3, w: Vector3| u.cross(v).dot(w);
-    let same_half = triple(a0, a1, b1) * triple(b1, b0, a1) > 0.0;
-    let both_sides = |x: f64, y: f64| x * y < 0.0 && x.abs().min(y.abs()) > PARALLEL;
-    both_sides(a0_side, a1_side) && both_sides(b0_side, b1_side) && same_half
+/// The arc between the normals of the faces beside an edge, on the unit sphere.
+struct Arc {
+    ends: [Vector3; 2],
+    /// Unit vector along the edge, square to both ends: it tells the sides of the arc's plane.
+    along: Vector3,
+    /// The cross product of the ends, along the edge.
+    turn: f64,
+}
+
+impl Arc {
+    /// With the normals times `sign`.
+    fn of(piece: &Polyhedron, edge: &Edge, sign: f64) -> Self {
+        let ends = edge.faces.map(|face| sign * piece.normals()[face]);
+        let along = direction(piece, edge);
+        Self { ends, along, turn: ends[0].cross(ends[1]).dot(along) }
+    }
+
+    /// Whether each has its ends on both sides of the other's plane, and on the same half of the sphere. An end that lies on the other's plane to
+    /// within [`PARALLEL`] does not count: there a face's normal parts the polyhedra as well.
+    fn crosses(&self, other: &Self) -> bool {
+        let both_sides = |x: f64, y: f64| x * y < 0.0 && x.abs().min(y.abs()) > PARALLEL;
+        let [b0, b1] = other.ends.map(|end| end.dot(self.along));
+        if !both_sides(b0, b1) {
+            return false;
+        }
+        let [a0, a1] = self.ends.map(|end| end.dot(other.along));
+        // The triple products (a0 x a1) b1 and (b1 x b0) a1 have one sign.
+        both_sides(a0, a1) && self.turn * b1 * other.turn * a1 < 0.0
+    }
 }
