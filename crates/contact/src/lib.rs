@@ -59,6 +59,7 @@ mod solution;
 mod solving;
 mod sweep;
 mod system;
+mod wide;
 
 pub use error::ContactError;
 pub use general::Matrices;

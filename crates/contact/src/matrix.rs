@@ -3,6 +3,7 @@
 //! It is not symmetric, as friction is not, but its pattern is. The order of elimination is that of approximate minimum degree on the
 //! graph of the chunks (Amestoy, Davis and Duff 1996; faer's); rows are exchanged within a chunk only.
 
+use crate::wide::wide;
 use drystone_lcp::interrupt::poll;
 use faer::{
     dyn_stack::{MemBuffer, MemStack},
@@ -118,6 +119,14 @@ impl<const B: usize> BlockMatrix<B> {
 
     /// Replaces it by its factors, `L U` with the inverses of U's pivot blocks in place of them. False if a pivot block has no inverse.
     pub fn factor(&mut self) -> bool {
+        wide(
+            #[inline(always)]
+            || self.eliminate(),
+        )
+    }
+
+    #[inline(always)]
+    fn eliminate(&mut self) -> bool {
         for j in 0..self.diagonal.len() {
             let Some(inverse) = inverse(&self.diagonal[j]) else { return false };
             poll(2 * B * B * B * (self.pair_starts[j + 1] - self.pair_starts[j]) as usize);
@@ -202,6 +211,14 @@ impl<const B: usize> BlockMatrix<B> {
 
     /// Solves with the factors, in place.
     pub fn solve(&mut self, x: &mut [[f64; B]]) {
+        wide(
+            #[inline(always)]
+            || self.substitute(x),
+        );
+    }
+
+    #[inline(always)]
+    fn substitute(&mut self, x: &mut [[f64; B]]) {
         for (x, &place) in x.iter().zip(&self.place) {
             self.right[place as usize] = *x;
         }
@@ -265,6 +282,7 @@ fn subtract_times<const B: usize>(y: &mut [f64; B], a: &Block<B>, x: &[f64; B]) 
 }
 
 /// Gauss and Jordan with exchanges of rows. None if a pivot is zero or no number.
+#[inline(always)]
 fn inverse<const B: usize>(a: &Block<B>) -> Option<Block<B>> {
     let mut left = *a;
     let mut right = [[0.0; B]; B];

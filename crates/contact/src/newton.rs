@@ -16,6 +16,7 @@ use crate::{
     matrix::BlockMatrix,
     softened::Softened,
     system::{State, System},
+    wide::wide,
 };
 use drystone_lcp::interrupt::poll;
 
@@ -42,11 +43,15 @@ pub(crate) struct Newton<const B: usize, const D: usize> {
     /// The contacts at y.
     pub contacts: Vec<Softened<D>>,
     y: Vec<[f64; B]>,
+    /// Relative velocities there.
+    u: Vec<[f64; D]>,
     /// G there.
     pub left: Vec<[f64; B]>,
     step: Vec<[f64; B]>,
     next: Vec<[f64; B]>,
-    begin: Vec<[f64; B]>,
+    /// y and u where a step begins, and what all of it changes of u.
+    begin: (Vec<[f64; B]>, Vec<[f64; D]>),
+    change: Vec<[f64; D]>,
 }
 
 impl<const B: usize, const D: usize> Newton<B, D> {
@@ -64,18 +69,20 @@ impl<const B: usize, const D: usize> Newton<B, D> {
         }
         let matrix = BlockMatrix::new(system.free.len(), &pairs)?;
         let between = pairs.iter().map(|&(a, b)| matrix.between(a, b)).collect::<Option<Vec<_>>>()?;
-        let chunks = vec![[0.0; B]; system.free.len()];
+        let (chunks, relative) = (vec![[0.0; B]; system.free.len()], vec![[0.0; D]; system.len()]);
         Some(Self {
             matrix,
             between,
-            reference: vec![[0.0; D]; system.len()],
+            reference: relative.clone(),
             parts: Vec::new(),
             contacts: Vec::with_capacity(system.len()),
             y: chunks.clone(),
+            u: relative.clone(),
             left: chunks.clone(),
             step: chunks.clone(),
             next: chunks.clone(),
-            begin: chunks,
+            begin: (chunks, relative.clone()),
+            change: relative,
         })
     }
 
@@ -91,22 +98,19 @@ impl<const B: usize, const D: usize> Newton<B, D> {
     ) -> bool {
         self.begin_at(system, state, eps);
         let mut short = 0;
-        for _ in 0..MOST {
+        for made in 0..=MOST {
             if self.is_near(system, eps, beside, small) {
-                break;
+                self.end_at(system, state);
+                return true;
             }
-            if short == SHORT_STEPS {
-                return false;
+            if made == MOST || short == SHORT_STEPS {
+                break;
             }
             *steps += 1;
             let Some(length) = self.advance(system, eps) else { return false };
             short = if length < SHORT { short + 1 } else { 0 };
         }
-        if !self.is_near(system, eps, beside, small) {
-            return false;
-        }
-        self.end_at(system, state);
-        true
+        false
     }
 
     /// Finds what each contact does at a state whose velocities are those of its impulses. Whether that differs from the last time.
@@ -164,6 +168,7 @@ impl<const B: usize, const D: usize> Newton<B, D> {
             self.reference[k] = state.p[k].map(|p| p * local.weight);
         }
         self.y.clone_from(&state.y);
+        self.u.iter_mut().enumerate().for_each(|(k, u)| *u = system.relative(k, &state.y));
         self.evaluate(system, eps);
     }
 
@@ -187,11 +192,8 @@ impl<const B: usize, const D: usize> Newton<B, D> {
 
     /// Along the step from where it began.
     fn go(&mut self, length: f64) {
-        for ((y, begin), step) in self.y.iter_mut().zip(&self.begin).zip(&self.step) {
-            for k in 0..B {
-                y[k] = begin[k] + length * step[k];
-            }
-        }
+        along(&mut self.y, &self.begin.0, length, &self.step);
+        along(&mut self.u, &self.begin.1, length, &self.change);
     }
 
     /// One step. Its length, None if there is none.
@@ -199,7 +201,16 @@ impl<const B: usize, const D: usize> Newton<B, D> {
         if !self.direction(system, eps) {
             return None;
         }
-        self.begin.clone_from(&self.y);
+        self.begin.0.clone_from(&self.y);
+        self.begin.1.clone_from(&self.u);
+        wide(
+            #[inline(always)]
+            || {
+                for k in 0..system.len() {
+                    self.change[k] = system.change(k, &self.step);
+                }
+            },
+        );
         let mut length = 1.0;
         loop {
             self.go(length);
@@ -216,8 +227,16 @@ impl<const B: usize, const D: usize> Newton<B, D> {
         }
     }
 
-    /// Contacts and G at y.
+    /// Contacts and G at y and u.
     fn evaluate(&mut self, system: &System<B, D>, eps: f64) {
+        wide(
+            #[inline(always)]
+            || self.evaluate_contacts(system, eps),
+        );
+    }
+
+    #[inline(always)]
+    fn evaluate_contacts(&mut self, system: &System<B, D>, eps: f64) {
         self.contacts.clear();
         for ((left, y), free) in self.left.iter_mut().zip(&self.y).zip(&system.free) {
             for k in 0..B {
@@ -225,10 +244,9 @@ impl<const B: usize, const D: usize> Newton<B, D> {
             }
         }
         for (k, local) in system.contacts.iter().enumerate() {
-            let u = system.relative(k, &self.y);
             let mut z = self.reference[k];
             for i in 0..D {
-                z[i] -= u[i] / eps;
+                z[i] -= self.u[k][i] / eps;
             }
             let contact = Softened::at(local.friction, &z);
             if contact.p[0] > 0.0 {
@@ -240,20 +258,27 @@ impl<const B: usize, const D: usize> Newton<B, D> {
 
     /// Whether what G leaves of the velocities at contacts is small beside what yielding does, or than `small`.
     fn is_near(&self, system: &System<B, D>, eps: f64, beside: f64, small: f64) -> bool {
-        let (mut left, mut yielding) = (0.0_f64, 0.0_f64);
-        for (k, contact) in self.contacts.iter().enumerate() {
-            let u = system.change(k, &self.left);
+        let mut yielding = 0.0_f64;
+        for (contact, reference) in self.contacts.iter().zip(&self.reference) {
             for i in 0..D {
-                left = left.max(u[i].abs());
-                yielding = yielding.max((contact.p[i] - self.reference[k][i]).abs());
+                yielding = yielding.max((contact.p[i] - reference[i]).abs());
             }
         }
-        left <= (beside * eps * yielding).max(small)
+        let most = (beside * eps * yielding).max(small);
+        (0..system.len()).all(|k| system.change(k, &self.left).iter().all(|u| u.abs() <= most))
     }
 
     /// The matrix of (1).
     pub fn assemble(&mut self, system: &System<B, D>, eps: f64) {
         poll(64 * D * B * system.len());
+        wide(
+            #[inline(always)]
+            || self.add_contacts(system, eps),
+        );
+    }
+
+    #[inline(always)]
+    fn add_contacts(&mut self, system: &System<B, D>, eps: f64) {
         self.matrix.reset();
         let mut first = 0;
         for (k, local) in system.contacts.iter().enumerate() {
@@ -273,6 +298,15 @@ impl<const B: usize, const D: usize> Newton<B, D> {
                     add(self.matrix.block(place, !upper), &system.rows[b], &of_a);
                 }
             }
+        }
+    }
+}
+
+/// `x = begin + length step`.
+fn along<const N: usize>(x: &mut [[f64; N]], begin: &[[f64; N]], length: f64, step: &[[f64; N]]) {
+    for ((x, begin), step) in x.iter_mut().zip(begin).zip(step) {
+        for k in 0..N {
+            x[k] = begin[k] + length * step[k];
         }
     }
 }
