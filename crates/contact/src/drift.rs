@@ -3,16 +3,19 @@
 
 use crate::law::{Part, dot};
 
+/// Impulses drift where no contact changes its state and the error stays, within a quarter.
+pub(crate) const STAYS: std::ops::Range<f64> = 0.8..1.25;
 /// The longest way, in changes.
 const MOST: f64 = 1e4;
-/// Beyond the first change of state by this share, so that it happens.
-const BEYOND: f64 = 1.001;
+/// Where states are found anew: beyond the first change by a share, so that it happens.
+pub(crate) const BEYOND: f64 = 1.001;
 
-/// Continues the way from `before` to `p` to where the first contact changes its state. `contacts` are coefficient and state of each.
+/// Continues the way from `before` to `p` to where the first contact changes its state, `beyond` times as far. `contacts` are coefficient and state of each.
 pub(crate) fn follow<const D: usize>(
     before: &[[f64; D]],
     p: &mut [[f64; D]],
     contacts: impl Iterator<Item = (f64, Part)> + Clone,
+    beyond: f64,
 ) {
     let change = |k: usize, p: &[f64; D]| -> [f64; D] { std::array::from_fn(|i| p[i] - before[k][i]) };
     let mut length = MOST;
@@ -31,7 +34,7 @@ pub(crate) fn follow<const D: usize>(
     for (k, p) in p.iter_mut().enumerate() {
         let d = change(k, p);
         for i in 0..D {
-            p[i] += BEYOND * length * d[i];
+            p[i] += beyond * length * d[i];
         }
     }
 }
@@ -51,7 +54,7 @@ fn way_to_the_edge<const D: usize>(friction: f64, p: &[f64; D], d: &[f64; D]) ->
 
 #[cfg(test)]
 mod tests {
-    use super::follow;
+    use super::{BEYOND, follow};
     use crate::law::Part;
 
     #[test]
@@ -59,7 +62,7 @@ mod tests {
         let before = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
         let there = |second: f64| {
             let mut p = [[1.0, 0.01, 0.0], [1.0 - second, 0.0, 0.0]];
-            follow(&before, &mut p, [(0.5, Part::Sticks); 2].into_iter());
+            follow(&before, &mut p, [(0.5, Part::Sticks); 2].into_iter(), BEYOND);
             p
         };
         // The first one slides at 0.5, 49 more changes away.

@@ -28,6 +28,8 @@ const HARDER: f64 = 0.3;
 const SOFTER: f64 = 5.0;
 /// Few Newton steps of one solve.
 const FEW: usize = 3;
+/// Solves in a row that leave the error as it was, after which eps falls however many steps they took: what drifts is not there yet.
+const LINGERS: usize = 6;
 /// What a solve may leave of the velocities beside what yielding does, and beside the tolerance. Measured: with a third of the first a
 /// quarter more steps.
 const BESIDE: f64 = 1.0;
@@ -41,8 +43,6 @@ const NEARLY: f64 = 1e-3;
 /// Below this share of the tolerance the end is tried exactly, in so many steps that are not good; and again at a tenth of the error.
 const ENDING: f64 = 1e-2;
 const AT_END: usize = 4;
-/// Impulses drift where no contact changes its state and the error stays, within a quarter.
-const STAYS: std::ops::Range<f64> = 0.8..1.25;
 /// Newton steps from a start that are not good, by the components of an impulse: in the plane, where the law is linear piece by piece, most
 /// islands are solved so. What was measured: docs/theory/step-solver.md.
 const FROM_START: [usize; 2] = [8, 2];
@@ -117,7 +117,7 @@ fn harden<const B: usize, const D: usize>(
     (goal, mut most): (Goal, usize),
 ) -> usize {
     let Goal { tolerance, end } = goal;
-    let (mut reached, mut stale, mut near) = (false, 0, ENDING * tolerance);
+    let (mut reached, mut stale, mut stayed, mut near) = (false, 0, 0, ENDING * tolerance);
     let (mut eps, mut least, mut steps) = (if best.error > tolerance { FIRST } else { NEARLY }, HARDEST, 0);
     let (mut before, mut parts, mut last) = (state.p.clone(), Vec::new(), f64::INFINITY);
     // Where nothing is left to do a solve takes no step; a problem without a solution would go on so for ever.
@@ -150,14 +150,17 @@ fn harden<const B: usize, const D: usize>(
         if reached && stale == STALE {
             return steps;
         }
+        let stays = drift::STAYS.contains(&(error / last));
+        stayed = if stays { stayed + 1 } else { 0 };
         let same = newton.contacts.iter().map(|contact| contact.part).eq(parts.iter().copied());
         parts.clear();
         parts.extend(newton.contacts.iter().map(|contact| contact.part));
-        if same && STAYS.contains(&(error / last)) {
+        if same && stays {
             let frictions = system.contacts.iter().map(|local| local.friction);
-            drift::follow(&before, &mut state.p, frictions.zip(parts.iter().copied()));
-        } else if steps - begun <= FEW {
+            drift::follow(&before, &mut state.p, frictions.zip(parts.iter().copied()), drift::BEYOND);
+        } else if steps - begun <= FEW || stayed == LINGERS {
             eps = (HARDER * eps).max(least);
+            stayed = 0;
         }
         least = (HARDER * least).max(HARDEST);
         last = error;

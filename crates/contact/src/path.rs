@@ -14,6 +14,7 @@
 
 use crate::{
     best::{Best, Goal},
+    drift,
     newton::Newton,
     place::{Change, Place},
     system::{State, System},
@@ -37,6 +38,8 @@ const KEPT: f64 = 0.1;
 /// long.
 const MOST: usize = 400;
 const FOR_A_STEP: usize = 2;
+/// A change of the same contact at the same t, to this, is the same one: the way is closed, and t = 1 is not on it.
+const SAME: f64 = 1e-12;
 /// How far back t may go.
 const BACK: f64 = -10.0;
 /// Updates of the factors after which they are made anew.
@@ -53,9 +56,9 @@ pub(crate) fn solve<const B: usize, const D: usize>(
 ) -> usize {
     let mut state = start.clone();
     let (mut eps, mut least, mut steps) = (FIRST, HARDEST, 0);
-    let (mut failed, mut stale) = (0, 0);
+    let (mut failed, mut stale, mut last) = (0, 0, f64::NAN);
     while steps < FOR_A_STEP * most {
-        let mut at = state.clone();
+        let (mut at, begun) = (state.clone(), steps);
         if !follow(system, newton, &mut at, eps, &mut steps) {
             failed += 1;
             if failed == FAILED {
@@ -65,9 +68,10 @@ pub(crate) fn solve<const B: usize, const D: usize>(
             least = eps;
             continue;
         }
-        let known = best.error;
+        let (known, before) = (best.error, std::mem::replace(&mut state, at.clone()).p);
         let mut error = best.keep(system, &at);
-        state.clone_from(&at);
+        let drifts = steps - begun == 1 && drift::STAYS.contains(&(error / last));
+        last = error;
         while error > goal.end && newton.increment(system, &mut at, eps, false) {
             let next = best.keep(system, &at);
             if next.is_nan() || next > KEPT * error {
@@ -80,6 +84,12 @@ pub(crate) fn solve<const B: usize, const D: usize>(
         if best.error <= goal.end || (best.error <= goal.tolerance && stale == STALE) {
             break;
         }
+        if drifts {
+            let frictions = system.contacts.iter().map(|local| local.friction);
+            drift::follow(&before, &mut state.p, frictions.zip(newton.parts.iter().copied()), 1.0);
+            system.move_by(&mut state);
+            continue;
+        }
         eps = (HARDER * eps).max(least);
         least = (AGAIN * least).max(HARDEST);
     }
@@ -87,7 +97,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
 }
 
 /// Follows the way from a state, whose velocities are those of its impulses, to t = 1, and leaves there what contacts do, and its matrix. Counts the
-/// matrices. False if it does not arrive.
+/// matrices. False if it does not arrive, as where it is a loop through the state.
 fn follow<const B: usize, const D: usize>(
     system: &System<B, D>,
     newton: &mut Newton<B, D>,
@@ -98,7 +108,9 @@ fn follow<const B: usize, const D: usize>(
     let mut way = Way::new(system, newton, state, eps);
     let (mut t, mut gone) = (0.0, 0.0);
     let mut changed: Option<(usize, usize)> = None;
-    for _ in 0..MOST {
+    // Where it was after 1, 2, 4, ... changes (Brent's way to find a cycle).
+    let mut mark = (usize::MAX, f64::NAN);
+    for made in 0..MOST {
         *steps += 1;
         if !way.find_direction() {
             return false;
@@ -115,6 +127,12 @@ fn follow<const B: usize, const D: usize>(
             way.end(state, gone);
             return true;
         };
+        if mark.0 == k && (t - mark.1).abs() < SAME {
+            return false;
+        }
+        if made.is_power_of_two() {
+            mark = (k, t);
+        }
         changed = Some((k, way.change(k, edge, gone)));
     }
     false

@@ -57,7 +57,7 @@ const IN_PLANE: f64 = 0.1;
 
 /// Newton steps in one island, in the plane and in space. In the plane, where more seldom help, there is another way. In space 24 of 1,009 problems of
 /// heaps and of a wall that is hit needed more than 200; 17 of these are solved with 400, all with 1,000, but then a step may take as long as two frames.
-const NEWTON_STEPS: [usize; 2] = [200, 400];
+const NEWTON_STEPS: [usize; 2] = [200, 600];
 
 /// Whether a step is solved on round cones. Not for the modes of reuse that are about pivots. Where few blocks move amid many that rest, pivots
 /// with the factor of the step before are ten times faster; so they go on until [`MANY`] move or one hits another ([`IMPACT`]), in the plane
