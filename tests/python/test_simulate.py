@@ -321,3 +321,13 @@ def test_a_heap_that_tumbles_obeys_the_law_in_every_step() -> None:
     assert run.not_exact == 0
     assert run.friction_error.max() < 1e-6
     assert run.penetration.max() < 1e-6
+
+
+def test_a_wall_that_is_hit_is_not_left_to_pivots() -> None:
+    # By pivots alone a step took 67,000 of them, for 1,150 rows.
+    scene = ds.scenes.wall(10, friction=0.6)
+    scene.add_box((-1, 2.25), (1, 1), density=4000, name="thrown")
+    run = ds.simulate(scene, steps=40, velocities={"thrown": (15, 0, 0)})
+    assert run.finished
+    assert (run.pivots * run.rows).max() < 4e6
+    assert not run.motionless[-1].all()

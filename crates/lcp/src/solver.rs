@@ -128,6 +128,21 @@ pub struct Snapshot {
     settled: bool,
 }
 
+/// Numbers of pivots at which a solve ends.
+#[derive(Debug, Clone, Copy)]
+struct Ends {
+    /// The caller wants no more.
+    stop: usize,
+    /// There is no answer, but for what can be proved without pivots.
+    limit: usize,
+}
+
+impl Ends {
+    fn at(limit: usize) -> Self {
+        Self { stop: usize::MAX, limit }
+    }
+}
+
 /// How a major cycle ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Cycle {
@@ -135,7 +150,7 @@ enum Cycle {
     Ray,
     Limit,
     LostAccuracy,
-    /// The caller asked to stop before it began.
+    /// The caller asked to stop.
     Stopped,
 }
 
@@ -383,7 +398,16 @@ impl Solver {
     /// # Errors
     /// As [`Self::solve`].
     pub fn solve_while(&mut self, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
-        self.answer(|solver, limit| solver.solve_present(limit, go_on))
+        self.answer(|solver, limit| solver.solve_present(Ends::at(limit), go_on))
+    }
+
+    /// The same with at most so many pivots. None if they do not suffice; the next solve goes on from there.
+    ///
+    /// # Errors
+    /// As [`Self::solve`].
+    pub fn solve_within(&mut self, pivots: usize) -> Result<Option<Status>, LcpError> {
+        let stop = self.counts.pivots.saturating_add(pivots);
+        self.answer(|solver, limit| solver.solve_present(Ends { stop, limit }, &mut || true))
     }
 
     /// Keeps the accounts of one solve; `method` is given the number of pivots at which it has to stop.
@@ -403,7 +427,7 @@ impl Solver {
         answer
     }
 
-    fn solve_present(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
+    fn solve_present(&mut self, ends: Ends, go_on: &mut dyn FnMut() -> bool) -> Result<Option<Status>, LcpError> {
         let mut rounds = 0;
         let mut repairs = REPAIRS.iter();
         loop {
@@ -412,7 +436,7 @@ impl Solver {
                 self.settle();
             }
             let cycles = self.counts.major_cycles;
-            let cycle = self.drive_all(limit, go_on)?;
+            let cycle = self.drive_all(ends, go_on)?;
             // Settling has computed w from z.
             let fresh = changed && cycles == self.counts.major_cycles;
             match cycle {

@@ -350,7 +350,7 @@ fn the_acceleration_level_is_refused() {
 }
 
 /// A cube that hits a wall of bricks: no step, to the last in which it settles, takes pivots from nothing, and none proves that bodies are jammed. Such
-/// steps took 2,610 and 641.
+/// steps took 2,610 and 641. What is left is for overlaps of 180 contacts, which are taken back up to ten times a step.
 #[test]
 fn a_wall_that_was_hit_settles_in_few_pivots() {
     let mut scene = scenes::brick_wall(6, 4, 0.6).unwrap();
@@ -358,7 +358,34 @@ fn a_wall_that_was_hit_settles_in_few_pivots() {
     scene.add_cuboid(at([2.0, -4.0, 1.5]), [0.6; 3], options).unwrap();
     let mut world = world(scene);
     world.set_velocity("thrown", [0.0, 9.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
-    let most = (0..260).map(|_| world.step().unwrap().counts.pivots).max();
-    assert!(most <= Some(400), "{most:?}");
+    for step in 0..260 {
+        let record = world.step().unwrap();
+        assert!(record.counts.pivots <= 200 * (1 + record.projections), "{step}: {record:?}");
+    }
     assert!(world.velocities().iter().flatten().all(|v| *v == 0.0));
+}
+
+/// A wall of 100 bricks that is hit at 20 m/s. Of 1,100 contacts that bear anew at once neither method comes to the law: pivots took half a minute to find
+/// less than Newton's method, whose answer stands; it is told that it is not exact, and gives no energy.
+#[test]
+fn a_wall_that_is_hit_is_not_left_to_pivots() {
+    let mut scene = on_ground(0.6);
+    for (row, k) in (0..10).flat_map(|row| (0..10).map(move |k| (row, k))) {
+        let x = f64::from(k) - 4.5 + if row % 2 == 1 { 0.25 } else { -0.25 };
+        scene.add_cuboid(at([x, 0.0, 0.25 + 0.5 * f64::from(row)]), [1.0, 0.5, 0.5], BodyOptions::default()).unwrap();
+    }
+    let options = BodyOptions { density: 5000.0, ..named("thrown") };
+    scene.add_cuboid(at([0.0, -1.0, 2.5]), [0.8; 3], options).unwrap();
+    let mut world = world(scene);
+    world.set_velocity("thrown", [0.0, 20.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
+    let mut moved = 0;
+    for step in 0..12 {
+        let energy = world.energy();
+        let record = world.step().unwrap();
+        assert!(record.counts.pivots < 1000, "{step}: {record:?}");
+        assert!(record.exact || record.residual < 0.02, "{step}: {record:?}");
+        assert!(world.energy() <= energy * (1.0 + 1e-12), "{step}");
+        moved = record.motionless.iter().filter(|still| !**still).count();
+    }
+    assert!(moved > 90, "{moved}");
 }

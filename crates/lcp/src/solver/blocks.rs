@@ -12,7 +12,7 @@
 //! pivoting algorithm for large-scale strictly monotone linear complementarity problems (1994); Kim and Park, Fast
 //! nonnegative matrix factorization: an active-set-like method and comparisons (2011).
 
-use super::{Role, Snapshot, Solver, largest};
+use super::{Ends, Role, Snapshot, Solver, largest};
 use crate::{error::LcpError, solution::Status};
 
 /// Exchanges without progress after which the block method is given up. Judice and Pires allow 10 and Kim and Park 3; with
@@ -69,7 +69,7 @@ impl Solver {
     pub fn solve_by_blocks(&mut self) -> Result<Status, LcpError> {
         let solved = self.answer(|solver, limit| {
             solver.exchange_blocks(limit);
-            solver.solve_present(limit, &mut || true)
+            solver.solve_present(Ends::at(limit), &mut || true)
         });
         Ok(solved?.expect("nobody stops it"))
     }

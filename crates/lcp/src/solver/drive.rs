@@ -1,7 +1,7 @@
 //! The pivots: major cycles that drive one row each, and the minor cycles within them.
 
 use super::{
-    Cycle, REFINE, Role, STALL, Solver,
+    Cycle, Ends, REFINE, Role, STALL, Solver,
     attempt::{CURVATURE_ROUNDING, FINE_CURVATURE, FINE_PIVOT, IMAGE_ROUNDING},
     largest, take,
 };
@@ -13,12 +13,12 @@ use crate::{
 };
 
 impl Solver {
-    pub(super) fn drive_all(&mut self, limit: usize, go_on: &mut dyn FnMut() -> bool) -> Result<Cycle, LcpError> {
+    pub(super) fn drive_all(&mut self, ends: Ends, go_on: &mut dyn FnMut() -> bool) -> Result<Cycle, LcpError> {
         while let Some(i) = self.most_violated() {
             if !go_on() {
                 return Ok(Cycle::Stopped);
             }
-            let cycle = self.major_cycle(i, limit)?;
+            let cycle = self.major_cycle(i, ends)?;
             if cycle != Cycle::Feasible {
                 return Ok(cycle);
             }
@@ -49,13 +49,16 @@ impl Solver {
     }
 
     /// Drives `z_i` up until `w_i` is zero, keeping every row considered before feasible.
-    fn major_cycle(&mut self, i: usize, limit: usize) -> Result<Cycle, LcpError> {
+    fn major_cycle(&mut self, i: usize, ends: Ends) -> Result<Cycle, LcpError> {
         self.role[i] = Role::Considered;
         self.driven = Some(i);
         self.counts.major_cycles += 1;
         let mut stalled = 0;
         loop {
-            if self.counts.pivots >= limit {
+            if self.counts.pivots >= ends.stop {
+                return Ok(Cycle::Stopped);
+            }
+            if self.counts.pivots >= ends.limit {
                 return Ok(Cycle::Limit);
             }
             self.direction(i);

@@ -37,18 +37,27 @@ struct Trial<S: Kinematics> {
     error: f64,
 }
 
-/// Takes over what can be, then looks for the fixed point of the sliding speeds.
+/// Why there is no answer. What the solver had taken over is of no use then.
+pub enum Unsolved {
+    /// A solve failed.
+    Failed(Status),
+    /// It takes more than was allowed.
+    TooHard,
+}
+
+/// Takes over what can be, then looks for the fixed point of the sliding speeds. `effort`: most pivots of all its solves, times the rows of the problem.
 ///
 /// # Errors
-/// The status of a solve that failed.
+/// [`Unsolved`].
 pub fn solve_by_pivots<S: Kinematics>(
     state: &State<S>,
     previous: &mut PreviousStep<S>,
     step: &StepProblem<'_, S>,
-) -> Result<Motion<S>, Status> {
+    mut effort: usize,
+) -> Result<Motion<S>, Unsolved> {
     let mut time = Duration::ZERO;
     let mut assumed = previous.sliding_at(step.contacts, FRICTION_ACCEPTED);
-    let rows_reused = load(state, previous, step, &assumed, &mut time)?;
+    let rows_reused = load(state, previous, step, &assumed, &mut time).map_err(Unsolved::Failed)?;
     let speed = step.free.iter().fold(0.0, |fastest, v| shift::<S>(v).max(fastest));
     let tolerance = step.coulomb_tolerance(state);
     // More than the usual tolerance is asked for by those who want to be done sooner.
@@ -58,7 +67,7 @@ pub fn solve_by_pivots<S: Kinematics>(
     let mut best = (f64::INFINITY, Vec::new());
     let mut solves = 0;
     loop {
-        let trial = try_sliding(state, previous, step, &assumed, &mut time)?;
+        let trial = try_sliding(state, previous, step, &assumed, (&mut time, &mut effort))?;
         solves += 1;
         if acceptable(trial.error, solves, speed) || trial.error <= sooner || solves > most {
             let exact = acceptable(trial.error, most, speed) || trial.error <= tolerance;
@@ -115,15 +124,18 @@ fn try_sliding<S: Kinematics>(
     previous: &mut PreviousStep<S>,
     step: &StepProblem<'_, S>,
     assumed: &[f64],
-    time: &mut Duration,
-) -> Result<Trial<S>, Status> {
+    (time, effort): (&mut Duration, &mut usize),
+) -> Result<Trial<S>, Unsolved> {
     let q = step.contacts.q(step.free, step.offsets, assumed);
     let begun = Instant::now();
-    let status = previous.solver.solve(&q);
+    let before = previous.solver.counts().pivots;
+    let status = previous.solver.solve(&q, *effort / q.len().max(1));
+    *effort = effort.saturating_sub(q.len() * (previous.solver.counts().pivots - before));
     *time += begun.elapsed();
-    match status.map_err(trouble)? {
-        Status::Solved => {}
-        status => return Err(status),
+    match status.map_err(|error| Unsolved::Failed(trouble(error)))? {
+        Some(Status::Solved) => {}
+        Some(status) => return Err(Unsolved::Failed(status)),
+        None => return Err(Unsolved::TooHard),
     }
     let solver = previous.solver.solver();
     let velocities = step.contacts.velocities(step.free, &state.inverse_mass, |row| solver.z(row));

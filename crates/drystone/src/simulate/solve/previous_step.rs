@@ -66,6 +66,12 @@ impl<S: Kinematics> PreviousStep<S> {
         self.at_rest = None;
     }
 
+    /// Drops what pivots would take over: it is not of the step that was solved last.
+    pub fn forget_pivots(&mut self) {
+        self.solver.forget();
+        self.at_rest = None;
+    }
+
     /// Takes a solve of this step for the step before: the next one solves the same step again.
     pub fn take(&mut self, contacts: &ContactProblem<S>, motion: &Motion<S>) {
         self.problem = Some(contacts.clone());

@@ -26,12 +26,12 @@ impl<S: Kinematics> WarmStart<S> for Cold {
         Ok(0)
     }
 
-    fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
+    fn solve(&mut self, q: &[f64], pivots: usize) -> Result<Option<Status>, LcpError> {
         let solver = self.counted.solver_mut();
         solver.clear();
         solver.set_q(q)?;
         solver.add_rows(&all_rows(q.len()))?;
-        solver.solve()
+        solver.solve_within(pivots)
     }
 
     fn save(&self) -> SavedStart<CandidateOf<S>> {

@@ -63,8 +63,8 @@ impl<S: Kinematics> WarmStart<S> for FromMotionless<S> {
         WarmStart::<S>::load(&mut self.full, next, matrix)
     }
 
-    fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
-        let Some(part) = &self.part else { return WarmStart::<S>::solve(&mut self.full, q) };
+    fn solve(&mut self, q: &[f64], pivots: usize) -> Result<Option<Status>, LcpError> {
+        let Some(part) = &self.part else { return WarmStart::<S>::solve(&mut self.full, q, pivots) };
         let solver = self.full.counted.solver_mut();
         solver.clear();
         solver.set_q(q)?;
@@ -72,10 +72,10 @@ impl<S: Kinematics> WarmStart<S> for FromMotionless<S> {
         match solver.start_from(&start) {
             Ok(()) => {
                 solver.add_rows(&all_rows(q.len()))?;
-                solver.solve()
+                solver.solve_within(pivots)
             }
             // The part's q has changed since: sliding speeds are corrected on the way.
-            Err(LcpError::Start(_)) => WarmStart::<S>::solve(&mut self.full, q),
+            Err(LcpError::Start(_)) => WarmStart::<S>::solve(&mut self.full, q, pivots),
             Err(error) => Err(error),
         }
     }

@@ -48,12 +48,12 @@ impl<S: Kinematics> WarmStart<S> for FromPrevious {
         Ok(kept)
     }
 
-    fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError> {
+    fn solve(&mut self, q: &[f64], pivots: usize) -> Result<Option<Status>, LcpError> {
         let solver = self.counted.solver_mut();
         if solver.problem().q() != q {
             solver.set_q(q)?;
         }
-        solver.solve()
+        solver.solve_within(pivots)
     }
 
     fn save(&self) -> SavedStart<CandidateOf<S>> {

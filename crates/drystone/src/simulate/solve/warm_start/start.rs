@@ -40,8 +40,8 @@ pub trait WarmStart<S: Kinematics>: std::fmt::Debug + Send + Sync {
         solver.add_rows(&rows)
     }
 
-    /// Solves it for this q.
-    fn solve(&mut self, q: &[f64]) -> Result<Status, LcpError>;
+    /// Solves it for this q, with at most so many pivots. None if they do not suffice: then all has to be forgotten.
+    fn solve(&mut self, q: &[f64], pivots: usize) -> Result<Option<Status>, LcpError>;
 
     /// The solver that it works with, if it has one.
     fn counted(&self) -> &CountedSolver;
