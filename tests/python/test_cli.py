@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -181,6 +182,26 @@ def test_help(cli: Cli, command: list[str]) -> None:
     ran = cli(*command, "--help")
     assert ran.status == 0
     assert "Usage" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("command", "flags"),
+    [
+        ("", ["--version"]),
+        ("check", ["--json", "--strong"]),
+        ("plan", ["--json", "--strong", "--clear-path", "--no-shortcuts"]),
+        ("scene", ["--list"]),
+        ("scene arch", []),
+        ("import", ["--ground", "--pieces", "--hull"]),
+        ("bench methods", ["--json"]),
+    ],
+)
+def test_help_shows_flags_without_a_value(cli: Cli, command: str, flags: list[str]) -> None:
+    lines = cli(*command.split(), "--help").out.splitlines()
+    for flag in [*flags, "-h"]:
+        (line,) = (x for x in lines if f" {flag} " in x)
+        after = line.partition(f" {flag} ")[2]
+        assert re.match(r"\s+[A-Z]", after), line  # the first word of what it does
 
 
 def test_version(cli: Cli) -> None:

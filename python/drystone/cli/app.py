@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from drystone.cli.errors import InputError
+from drystone.cli.flags import App
 from drystone.cli.options import (
     AsJson,
     Block,
@@ -27,7 +28,7 @@ from drystone.many.engines import EngineName
 from drystone.motion.modes import Formulation, Reuse
 from drystone.planning.search import OrderOfPlan, StabilityTest
 
-app = typer.Typer(
+app = App(
     help="Does it stand, how does it move, and in which order can it be taken apart? "
     "Exact contact dynamics of stacked rigid bodies.",
     no_args_is_help=True,
@@ -443,7 +444,7 @@ def import_(
     )
 
 
-bench_app = typer.Typer(help="Repeat published measurements.", no_args_is_help=True)
+bench_app = App(help="Repeat published measurements.", no_args_is_help=True)
 app.add_typer(bench_app, name="bench")
 
 

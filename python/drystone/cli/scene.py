@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
 
 from drystone import _core, scenes
+from drystone.cli.flags import App, Group
 from drystone.cli.inputs import (
     PICTURES,
     STANDARD,
@@ -27,7 +27,7 @@ from drystone.cli.options import File
 from drystone.scene import Scene
 
 
-class SceneGroup(TyperGroup):
+class SceneGroup(Group):
     """`drystone scene FILE` is `drystone scene draw FILE`, and `wall:6` is `wall --rows 6`."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -45,7 +45,7 @@ class SceneGroup(TyperGroup):
         return super().resolve_command(ctx, args)
 
 
-scene_app = typer.Typer(
+scene_app = App(
     cls=SceneGroup,
     help="Write a built-in scene as a scene file, or draw a scene.",
     no_args_is_help=True,
