@@ -63,8 +63,41 @@ def test_a_name_or_axes() -> None:
         scene.draw()
     with pytest.raises(TypeError, match="one of the two"):
         scene.draw("a.svg", ax=Figure().subplots())
-    with pytest.raises(ValueError, match=r"\.svg, \.pdf or \.png, not '\.bmp'"):
-        ds.check(scene).save("a.bmp")
+
+
+PICTURES = ".svg, .pdf, .png"
+
+
+@pytest.mark.parametrize(
+    ("write", "known"),
+    [
+        (lambda name: ds.scenes.arch(5).draw(name), f"{PICTURES} or .html"),
+        (lambda name: ds.World(ds.scenes.arch(5)).draw(name), ".svg, .pdf or .png"),
+        (lambda name: ds.check(ds.scenes.arch(5)).save(name), f".json, {PICTURES} or .html"),
+        (lambda name: ds.plan(ds.scenes.column(2)).draw(name), f"{PICTURES} or .html"),
+        (
+            lambda name: ds.plan(ds.scenes.column(2)).save(name),
+            f".json, {PICTURES}, .html, .gif or .mp4",
+        ),
+        (
+            lambda name: ds.simulate(ds.scenes.column(2), steps=1).save(name),
+            f".npz, .html, .gif, .mp4, {PICTURES[:-6]} or .png",
+        ),
+        (lambda name: ds.scenes.arch(5).view().save(name), ".html"),
+    ],
+)
+@pytest.mark.parametrize("name", ["a.bmp", "a"])
+def test_an_unknown_ending_is_refused_with_those_that_work(
+    write: Callable[[str], None],
+    known: str,
+    name: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match=f"^{name}: give it a name that ends in {known}$"):
+        write(name)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("name", ["verdict", "limit", "margin", "plan"])

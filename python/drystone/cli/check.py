@@ -12,6 +12,7 @@ from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path,
 from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
 from drystone.common.drawn import Drawn
+from drystone.common.files import PAGE
 from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
 from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
@@ -38,7 +39,7 @@ def run(
 
     With `strong` 0 if it must stand, 1 if it need not, 2 if that was not decided.
     """
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     if budget is not None and not strong:
@@ -74,9 +75,7 @@ def _drawn(verdict: Verdict, picture: Path | None) -> Drawn:
     """What a picture is of. The page of a verdict has its settlement in it."""
     if verdict.settled is not None:
         return (
-            verdict
-            if picture is not None and picture.suffix.lower() == ".html"
-            else verdict.settled
+            verdict if picture is not None and picture.suffix.lower() == PAGE else verdict.settled
         )
     return verdict.escape or verdict
 

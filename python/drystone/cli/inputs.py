@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from drystone.cli.errors import InputError
 from drystone.common.extras import require
+from drystone.common.files import FILMS, PAGE, PICTURES, RUN, ending_of
 from drystone.common.text import shown
 
 if TYPE_CHECKING:
@@ -120,13 +121,11 @@ def python_name(name: str) -> str:
     return name.replace("-", "_")
 
 
-PICTURES = (".svg", ".pdf", ".png")
-FILMS = (".gif", ".mp4")
 KINDS = {
     **dict.fromkeys(PICTURES, "picture"),
     **dict.fromkeys(FILMS, "film"),
-    ".html": "page",
-    ".npz": "run",
+    PAGE: "page",
+    RUN: "run",
 }
 """What a file is, by the ending of its name."""
 
@@ -134,11 +133,13 @@ KINDS = {
 def picture_path(path: Path | None, *others: str) -> Path | None:
     """`path`, refused before any work if it ends neither as a picture's nor in one of `others`, or
     if what draws it is not installed."""
-    endings = (*PICTURES, *others)
-    if path is not None and path.suffix.lower() not in endings:
-        known = f"{', '.join(endings[:-1])} or {endings[-1]}"
-        raise InputError(f"{path}: give it a name that ends in {known}")
-    if path is not None and path.suffix.lower() in (*PICTURES, *FILMS):
+    if path is None:
+        return None
+    try:
+        ending = ending_of(path, (*PICTURES, *others))
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    if ending in (*PICTURES, *FILMS):
         require("pictures", "pictures")
     return path
 

@@ -11,6 +11,7 @@ from drystone.cli.errors import InputError
 from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import Cone
+from drystone.common.files import PAGE
 from drystone.common.json_text import write_json
 from drystone.equilibrium.limits import Limit, limit
 from drystone.report.tables import motion_table
@@ -33,7 +34,7 @@ def run(
     """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
     if not push and gravity is None:
         raise InputError("nothing pushes: give --push, as 7:100,0, or --gravity, as 9.81,0")
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     found = limit(

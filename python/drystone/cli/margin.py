@@ -10,6 +10,7 @@ from drystone.cli.errors import InputError
 from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
 from drystone.cli.output import console
 from drystone.common.cones import Cone
+from drystone.common.files import PAGE
 from drystone.common.json_text import write_json
 from drystone.equilibrium.margins import LoadsUnder, Margin, margin
 from drystone.report.tables import motion_table
@@ -27,7 +28,7 @@ def run(
     cone: Cone,
 ) -> int:
     """0 if it has a margin, 1 if it falls, 2 if there is no answer."""
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     found = margin(scene, names, loads=loads, tolerance=tolerance, facets=facets, cone=cone)

@@ -11,7 +11,6 @@ from pathlib import Path
 from drystone.cli.errors import InputError
 from drystone.cli.forces import with_forces_in_time
 from drystone.cli.inputs import (
-    FILMS,
     kind_of,
     load_scene,
     picture_path,
@@ -20,6 +19,7 @@ from drystone.cli.inputs import (
 )
 from drystone.cli.output import console, facts, in_a_row, names
 from drystone.common.cones import Pyramid
+from drystone.common.files import FILMS, PAGE
 from drystone.common.progress import ForcesProgress, PlanProgress
 from drystone.common.text import shown
 from drystone.common.units import scale_of
@@ -58,7 +58,7 @@ def run(
         )
     if strong and (margin or order != "any"):
         raise InputError("--strong goes without --margin and --order robust")
-    picture = picture_path(output, ".html", *FILMS)
+    picture = picture_path(output, PAGE, *FILMS)
     scene = load_scene(scene_name)
     in_the_way = None if obstacles is None else load_scene(obstacles)
     with PlanProgress() as progress:

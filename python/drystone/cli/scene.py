@@ -12,7 +12,6 @@ import typer
 from drystone import _core, scenes
 from drystone.cli.flags import App, Group
 from drystone.cli.inputs import (
-    PICTURES,
     STANDARD,
     builder_of,
     load_scene,
@@ -24,6 +23,7 @@ from drystone.cli.inputs import (
     said_of,
 )
 from drystone.cli.options import File
+from drystone.common.files import PAGE, PICTURES
 from drystone.scene import Scene
 
 
@@ -84,7 +84,7 @@ def draw(
     ],
 ) -> int:
     """Draw a scene, with blocks that overlap in red; `draw` may be left out before a file."""
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE)
     given = load_scene(scene)
     with reporting_files():
         given.draw(picture or output)
@@ -101,7 +101,7 @@ def _command(builder: Callable[..., Scene], helps: dict[str, str]) -> Callable[.
         if output is None or str(output) == STANDARD:
             print(scene.to_json())
             return 0
-        drawn = output.suffix.lower() in (*PICTURES, ".html")
+        drawn = output.suffix.lower() in (*PICTURES, PAGE)
         with reporting_files():
             (scene.draw if drawn else scene.save)(output)
         print(said_of(output) if drawn else f"{len(scene)} bodies written to {output}")

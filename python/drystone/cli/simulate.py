@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from drystone.cli.errors import INTERRUPTED
 from drystone.cli.inputs import (
-    FILMS,
     kind_of,
     load_scene,
     picture_path,
@@ -17,6 +16,7 @@ from drystone.cli.inputs import (
 )
 from drystone.cli.output import console, facts
 from drystone.common.cones import Pyramid
+from drystone.common.files import FILMS, PAGE, RUN
 from drystone.common.progress import RunProgress
 from drystone.common.text import counted
 from drystone.common.units import quantity
@@ -43,7 +43,7 @@ def run(
     output: Path | None,
 ) -> int:
     """0 if every step was made, 1 if one could not be, 130 after Ctrl-C."""
-    output = picture_path(output, ".html", *FILMS, ".npz")
+    output = picture_path(output, PAGE, *FILMS, RUN)
     forces = forces or (output is not None and kind_of(output) != "run")
     scene = load_scene(scene_name)
     with RunProgress() as progress:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
-from pathlib import Path
+from os import PathLike
 from typing import TYPE_CHECKING
 
 from drystone.common import later
+from drystone.common.files import PAGE, PICTURES, ending_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,6 +37,7 @@ class Drawn:
         if ax is not None:
             later.draw_on(self, ax)
         elif path is not None:
+            ending_of(path, PICTURES)
             later.save_figure(later.figure(self), path, dpi)
 
     def show(self) -> None:
@@ -56,7 +57,7 @@ class Paged(Drawn):
         self, path: str | PathLike[str] | None = None, *, ax: Axes | None = None, dpi: float = DPI
     ) -> None:
         """Write a picture as `Drawn.draw` does, or a page if the name ends in .html."""
-        if path is not None and fspath(path).lower().endswith(".html"):
+        if path is not None and ax is None and ending_of(path, (*PICTURES, PAGE)) == PAGE:
             self.view().save(path)
         else:
             super().draw(path, ax=ax, dpi=dpi)
@@ -64,8 +65,3 @@ class Paged(Drawn):
     def view(self) -> Page:
         """The page: save it, show it, or let a notebook show it."""
         return later.page(self)
-
-
-def is_film(path: str | PathLike[str]) -> bool:
-    """Whether a name is that of a film."""
-    return Path(path).suffix.lower() in (".gif", ".mp4")

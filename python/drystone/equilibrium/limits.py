@@ -12,6 +12,7 @@ from drystone import _core
 from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
+from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, vector
 from drystone.common.text import MOST_ROWS, counted, shorten
@@ -179,8 +180,11 @@ class Limit(Paged):
         write_json(self.to_dict(), file)
 
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write `to_dict` (.json), or the picture of the forces and the collapse."""
-        if not save_json(self, path):
+        """Write `to_dict` (.json), a picture of forces and collapse (.svg, .pdf, .png), or a page
+        that plays it (.html)."""
+        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
+            save_json(self, path)
+        else:
             self.draw(path, dpi=dpi)
 
 

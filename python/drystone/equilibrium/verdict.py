@@ -13,6 +13,7 @@ from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS, ROUND, ConeOfCheck, core_cones
 from drystone.common.drawn import DPI, Paged
+from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import Rows, save_json, write_json
 from drystone.common.numbers import names_of, whole
 from drystone.common.text import MOST_ROWS, counted, shorten
@@ -278,8 +279,11 @@ class Verdict(Paged):
         return later.table(self, rows)
 
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write everything but the scene (.json), or the picture of forces or of the fall."""
-        if not save_json(self, path):
+        """Write all but the scene (.json), a picture of forces or fall (.svg, .pdf, .png), or a
+        page that plays it (.html)."""
+        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
+            save_json(self, path)
+        else:
             self.draw(path, dpi=dpi)
 
 

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS, Cone
-from drystone.common.drawn import DPI, Paged, is_film
+from drystone.common.drawn import DPI, Paged
+from drystone.common.files import FILMS, JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.common.units import quantity
@@ -360,9 +361,12 @@ class Plan(Paged):
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
         """Write everything but the scene (.json), a page to step through (.html), a film (.gif,
         .mp4) or a picture (.svg, .pdf, .png)."""
-        if is_film(path):
+        ending = ending_of(path, (JSON, *PICTURES, PAGE, *FILMS))
+        if ending == JSON:
+            save_json(self, path)
+        elif ending in FILMS:
             later.film(self, path, dpi)
-        elif not save_json(self, path):
+        else:
             self.draw(path, dpi=dpi)
 
     def view(
