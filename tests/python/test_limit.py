@@ -295,7 +295,6 @@ def test_units_and_places_change_nothing() -> None:
         ({"push": {"ground": (1, 0)}}, "fixed"),
         ({"push": {"block": (1,)}}, "2 numbers of force"),
         ({"push": {"block": (1, 0, 0, 0)}}, "2 numbers of force"),
-        ({"push": {"block": 3}}, "2 numbers of force"),
         ({"push": {"block": (math.nan, 0)}}, "finite"),
         ({"push": {"block": (1e99, 0)}}, "must be from"),
         ({"gravity": (1, 0, 0)}, "two numbers"),

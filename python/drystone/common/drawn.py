@@ -35,6 +35,8 @@ class Drawn:
         if (path is None) == (ax is None):
             raise TypeError("draw wants a file's name, or ax=: one of the two")
         if ax is not None:
+            if not hasattr(ax, "get_window_extent"):
+                raise TypeError(f"ax must be axes of matplotlib, not {ax!r:.80}")
             later.draw_on(self, ax)
         elif path is not None:
             ending_of(path, PICTURES)

@@ -14,7 +14,7 @@ from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
 from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
-from drystone.common.numbers import names_of, vector
+from drystone.common.numbers import name_of, names_of, vector
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
@@ -241,7 +241,7 @@ def movable(scene: Scene, names: list[str] | None) -> tuple[str, ...]:
 def core_push(
     scene: Scene, push: Push | None, gravity: Sequence[float] | None
 ) -> tuple[CoreForces, tuple[float, ...] | None]:
-    """A push as the core takes it; SceneError for what is none."""
+    """A push as the core takes it; TypeError or SceneError for what is none."""
     if push is None and gravity is None:
         raise _core.SceneError("nothing pushes: give push= (forces on bodies) or gravity=")
     if push is not None and not isinstance(push, Mapping):
@@ -252,10 +252,8 @@ def core_push(
     more = 1 if n == 2 else 3
     forces: CoreForces = []
     for name, force in (push or {}).items():
-        given = _numbers(force)
-        if not isinstance(name, str) or given is None or len(given) not in (n, n + more):
-            wanted = f"{n} numbers of force, and {more} of moment behind them if there is one"
-            raise _core.SceneError(f"the push on {name!r} must be {wanted}, not {force!r:.80}")
+        wanted = f"{n} numbers of force, and {more} of moment behind them if there is one"
+        given = vector(force, (n, n + more), f"the push on {name_of(name)!r}", wanted)
         moment = (*(0.0,) * (3 - more), *given[n:]) if len(given) > n else (0.0, 0.0, 0.0)
         forces.append((name, given[:n], (moment[0], moment[1], moment[2])))
     return forces, None if gravity is None else vector(gravity, n, "gravity")
@@ -283,15 +281,6 @@ def limit_of(
         gravity,
         scene,
     )
-
-
-def _numbers(value: Any) -> tuple[float, ...] | None:
-    if isinstance(value, str):
-        return None
-    try:
-        return tuple(float(x) for x in value)
-    except (TypeError, ValueError):
-        return None
 
 
 def finite(value: float) -> float | None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from drystone._core import DrystoneError, SceneError
 from drystone.common.choices import Joints, Split, Up
+from drystone.common.numbers import names_of, number, optional_number, optional_whole
 from drystone.common.text import counted
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
@@ -151,8 +152,9 @@ def load(
     source: Any = path if live else Path(fspath(cast("str | PathLike[str]", path)))
     if up not in UP:
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
+    fixed = names_of(fixed, "fixed") or ()
     own_units = scale is None
-    scale = 1.0 if scale is None else scale
+    scale = 1.0 if scale is None else number(scale, "scale", error=FormatError)
     if not 0 < scale < float("inf"):
         raise FormatError(f"scale must be a positive number, not {scale!r}")
     if joints not in JOINTS:
@@ -160,7 +162,11 @@ def load(
     if isinstance(tolerance, str) and tolerance != "auto":
         raise FormatError(f"tolerance must be a length in metres or 'auto', not {tolerance!r}")
     # Two bodies touch within it if the surface of each is off by half of it.
-    given = tolerance if isinstance(tolerance, (int, float)) else None
+    given = None if tolerance == "auto" else optional_number(tolerance, "tolerance", FormatError)
+    max_pieces = optional_whole(max_pieces, "max_pieces")
+    simplify = optional_number(simplify, "simplify", FormatError)
+    if not isinstance(density, Mapping):
+        density = optional_number(density, "density")
     collected = Collected(mesh_tolerance=None if given is None else given / 2 / scale)
     try:
         simplify = None if simplify is None else simplify / scale

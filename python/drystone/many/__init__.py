@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid
+from drystone.common.numbers import number, optional_number, optional_whole, whole
 from drystone.many import engines
 from drystone.many.answers import ManyPlans, ScenePlan
 from drystone.many.engine import EngineError
@@ -99,18 +100,18 @@ def plan_many(
         raise ValueError("directions are for straight ways out: give clear_path=True with them")
     settings = Settings(
         test,
-        node_limit,
-        time_limit,
+        optional_whole(node_limit, "node_limit"),
+        optional_number(time_limit, "time_limit"),
         shortcuts,
-        hold,
+        whole(hold, "hold"),
         clear_path,
         tuple(tuple(map(float, way)) for way in directions or ()),
-        margin,
+        number(margin, "margin"),
         order,
-        moves,
-        together,
+        whole(moves, "moves"),
+        whole(together, "together"),
         None if obstacles is None else scene_of(obstacles).to_json(),
-        facets,
+        whole(facets, "facets"),
         cone,
     ).checked()
     jobs, total = jobs_of(scenes)

@@ -65,6 +65,10 @@ def read_triangles(source: str | PathLike[str] | Any) -> Triangles:
     Raises MeshError for what is no mesh and OSError if the file cannot be opened.
     """
     if not isinstance(source, (str, PathLike)):
+        if not hasattr(source, "vertices"):
+            raise TypeError(
+                f"a mesh must be a file's name or a trimesh.Trimesh, not {source!r:.80}"
+            )
         return of_trimesh(source, "mesh", repeats=False)
     path = checked(source)
     if path.suffix.lower() == ".obj":

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.numbers import number, vector, whole
+from drystone.common.numbers import name_of, number, vector, whole, word
 from drystone.motion.modes import COULOMB_TOLERANCE, MOST_STEPS, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.scene import Scene
@@ -83,7 +83,7 @@ def simulate(
     >>> run.poses.shape
     (241, 8, 7)
     """
-    whole(steps, "steps")
+    whole(steps, "steps", _core.SimulationError)
     if not 0 <= steps <= MOST_STEPS:
         raise _core.SimulationError(f"steps is {steps}: it must be from 0 to {MOST_STEPS}")
     if not isinstance(velocities or {}, Mapping):
@@ -91,12 +91,32 @@ def simulate(
             f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
         )
     cones = core_cones(facets, cone)
-    start, dt = scene_of(scene)._core, number(dt, "dt")
-    world = _core.World(start, dt, reuse, restitution, formulation, coulomb_tolerance, cones)
+    world = core_world(scene, dt, reuse, restitution, formulation, coulomb_tolerance, cones)
     for name, velocity in (velocities or {}).items():
-        world.set_velocity(name, velocity_of(world, name, velocity))
+        world.set_velocity(name_of(name), velocity_of(world, name, velocity))
     begun = Scene._of(world.scene)
     return Run._of(world.run(steps, forces, progress), world, begun)
+
+
+def core_world(
+    scene: Scene,
+    dt: float,
+    reuse: str,
+    restitution: float,
+    formulation: str,
+    coulomb_tolerance: float,
+    cones: tuple[int, str],
+) -> _core.World:
+    """A scene at rest, about to move; TypeError for arguments of another type."""
+    return _core.World(
+        scene_of(scene)._core,
+        number(dt, "dt"),
+        word(reuse, "reuse"),
+        number(restitution, "restitution"),
+        word(formulation, "formulation"),
+        number(coulomb_tolerance, "coulomb_tolerance"),
+        cones,
+    )
 
 
 def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:

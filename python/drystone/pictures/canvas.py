@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 
 from drystone.common.drawn import DPI
 from drystone.common.files import PICTURES, ending_of, write_whole
+from drystone.common.numbers import number
 from drystone.pictures import style
 
 if TYPE_CHECKING:
@@ -37,6 +38,9 @@ SETTINGS: dict[Any, Any] = {
 }
 """Same input, same file: no random identifiers. Text stays text."""
 
+
+LEAST_DPI, MOST_DPI = 10, 2400
+"""Below, letters have no pixel and matplotlib ends the process; above, a picture fills memory."""
 
 UNSAID: dict[str, dict[str, None]] = {
     "svg": {"Date": None},
@@ -201,9 +205,12 @@ def svg(figure: Figure) -> str:
 
 def rendered(figure: Figure, kind: str, dpi: float = DPI) -> bytes:
     """The figure as a file of some kind: the same figure, the same bytes."""
+    dots = number(dpi, "dpi")
+    if not LEAST_DPI <= dots <= MOST_DPI:
+        raise ValueError(f"dpi is {dots:g}: it must be from {LEAST_DPI} to {MOST_DPI}")
     out = io.BytesIO()
     with mpl.rc_context(SETTINGS):
-        figure.savefig(out, format=kind, dpi=dpi, metadata=UNSAID[kind])
+        figure.savefig(out, format=kind, dpi=dots, metadata=UNSAID[kind])
     return out.getvalue()
 
 

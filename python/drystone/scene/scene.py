@@ -11,7 +11,14 @@ from drystone import _core
 from drystone.common import later
 from drystone.common.drawn import Paged
 from drystone.common.files import write_whole
-from drystone.common.numbers import name_of, number, optional_name, vector
+from drystone.common.numbers import (
+    name_of,
+    number,
+    optional_name,
+    optional_number,
+    vector,
+    whole,
+)
 from drystone.common.text import counted
 from drystone.scene.adding import Adding, Point
 from drystone.scene.body import Body, Contact, Solid, snapshot
@@ -70,13 +77,17 @@ class Scene(Adding, Paged):
 
         Raises SceneError if `dimension` is neither 2 nor 3 or a number is not usable.
         """
-        if dimension not in (2, 3):
+        if whole(dimension, "dimension") not in (2, 3):
             raise _core.SceneError(
                 f"dimension must be 2 (the plane) or 3 (space), not {dimension!r}"
             )
         if gravity is None:
             gravity = (0.0, -9.81) if dimension == 2 else (0.0, 0.0, -9.81)
-        self._core = _core.Scene(vector(gravity, dimension, "gravity"), friction, contact_tolerance)
+        self._core = _core.Scene(
+            vector(gravity, dimension, "gravity"),
+            number(friction, "friction"),
+            optional_number(contact_tolerance, "contact_tolerance"),
+        )
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Self:
@@ -205,7 +216,7 @@ class Scene(Adding, Paged):
 
         Blocks reach from -`depth` / 2 to `depth` / 2 along y; masses stay what they are.
         """
-        return Scene._of(self._core.extruded(depth))
+        return Scene._of(self._core.extruded(number(depth, "depth")))
 
     def parted(self) -> Scene:
         """The same scene with overlaps taken back, for what was drawn or measured with them.

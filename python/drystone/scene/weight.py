@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from drystone import _core
-from drystone.common.numbers import number, pair, triple
+from drystone.common.numbers import number, optional_number, pair, triple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -26,7 +26,7 @@ def in_plane(
     moment = None
     if inertia is not None:
         moment = number(inertia, "inertia in the plane", "a number (kg m^2)")
-    return mass, center, moment
+    return optional_number(mass, "mass"), center, moment
 
 
 def in_space(
@@ -35,7 +35,7 @@ def in_space(
     """The three for a body in space; SceneError naming what is not usable."""
     center = None if center_of_mass is None else triple(center_of_mass, "center_of_mass")
     return (
-        mass,
+        optional_number(mass, "mass"),
         center,
         None if inertia is None else _rows(inertia),
     )
