@@ -90,6 +90,7 @@ def test_plan_without_an_order(cli: Cli, tmp_path: Path) -> None:
     assert ran.status == 1
     assert "No stable order exists" in ran.out
     assert "plank" in ran.out
+    assert "may be an order: --hold 1" in ran.out
 
 
 def test_plan_within_limits(cli: Cli, tmp_path: Path) -> None:

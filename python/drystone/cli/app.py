@@ -26,6 +26,7 @@ from drystone.equilibrium.contact_force import WhichForces
 from drystone.equilibrium.margins import LoadsUnder
 from drystone.many.engines import EngineName
 from drystone.motion.modes import Formulation, Reuse
+from drystone.planning.answer import MOST_HELD
 from drystone.planning.search import OrderOfPlan, StabilityTest
 
 app = App(
@@ -163,7 +164,9 @@ def plan(
     hold: Annotated[
         int,
         typer.Option(
-            min=0, max=8, help="Blocks that may be held at a time if there is no order without."
+            min=0,
+            max=MOST_HELD,
+            help="Blocks that may be held at a time if there is no order without.",
         ),
     ] = 0,
     clear_path: Annotated[

@@ -114,6 +114,8 @@ def _print(found: Plan, picture: Path | None) -> None:
         told.add_row("falls with any of", names(found.falls_next) or "nothing tried")
         if found.whole is not None:
             told.add_row("the whole assembly", str(found.whole))
+        if found.next_hold is not None:
+            told.add_row("with blocks held", f"there may be an order: --hold {found.next_hold}")
     if found.margin and found.found:
         bears = [f"{m:.3g}" for m in found.margins]
         told.add_row("bears sideways, in g", in_a_row(bears, len(bears)))

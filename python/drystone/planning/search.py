@@ -165,7 +165,7 @@ def plan(
             with_margin,
             strong,
         )
-        return Plan._of(core, test, scene, cones, with_margin, strong)
+        return Plan._of(core, test, scene, cones, with_margin, strong, hold)
 
     return robust(planned, least) if order == "robust" else planned(least)
 
