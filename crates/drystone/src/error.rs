@@ -277,6 +277,12 @@ pub enum FileError {
         /// The operating system's words.
         reason: String,
     },
+    /// There is no text at all.
+    #[error("{file}: it is empty: give a scene, as Scene.save and drystone scene write it")]
+    Empty {
+        /// The file.
+        file: String,
+    },
     /// The text ends in the middle of the scene.
     #[error("{file}: the file ends early, at line {line} column {column}: it was cut short, copy it again")]
     Truncated {

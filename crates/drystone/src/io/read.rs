@@ -96,6 +96,9 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
 
 fn syntax(file: &str, text: &str, error: &serde_json::Error) -> FileError {
     let (file, line, column) = (file.to_owned(), error.line(), error.column());
+    if text.trim().is_empty() {
+        return FileError::Empty { file };
+    }
     if error.is_eof() {
         return FileError::Truncated { file, line, column };
     }

@@ -199,9 +199,16 @@ fn another_format_version_or_dimension_is_refused_first() {
 fn a_file_cut_anywhere_is_an_error() {
     let text = text_of(&scenes::five_blocks(0.0).unwrap());
     let document = text.trim_end();
-    for end in 0..document.len() {
+    for end in 1..document.len() {
         let error = error_of(&document[..end]);
         assert!(matches!(error, FileError::Truncated { .. }), "cut at {end}: {error}");
+    }
+}
+
+#[test]
+fn an_empty_file_is_said_to_be_empty() {
+    for text in ["", " \n\n"] {
+        assert!(matches!(error_of(text), FileError::Empty { .. }), "{}", error_of(text));
     }
 }
 
