@@ -7,8 +7,9 @@
 use super::{
     ends::{End, Limit},
     greatest,
+    interior::Known,
     interior::greatest as proved,
-    limit,
+    limit_known,
     region::{Region, Support},
 };
 use crate::{
@@ -53,6 +54,9 @@ pub struct Margin {
 /// Most questions for a boundary.
 const MOST: usize = 200;
 
+/// Turns of a direction without an answer, radians: methods that stall in one plane of symmetry do not beside it.
+const BESIDE: [f64; 2] = [1e-3, -1e-3];
+
 /// What is asked of a margin.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked {
@@ -80,7 +84,15 @@ pub fn margin<S: Assemble>(
         sideways(assembly, scene, blocks, axes[0], asked.loads)?,
         sideways(assembly, scene, blocks, axes[1], asked.loads)?,
     ];
-    let mut probing = Probing { assembly, blocks, cone: asked.cone, axes, pushes, questions: 0 };
+    let mut probing = Probing {
+        assembly,
+        blocks,
+        cone: asked.cone,
+        axes,
+        pushes,
+        known: Known::within(asked.tolerance),
+        questions: 0,
+    };
     let mut margin = if assembly.in_plane() { probing.in_plane() } else { probing.in_space(asked.tolerance) };
     margin.tilt = match asked.loads {
         _ if margin.status != Status::Solved => None,
@@ -150,13 +162,34 @@ struct Probing<'a> {
     cone: FrictionCone,
     axes: [[f64; 3]; 2],
     pushes: [Push; 2],
+    /// How well the ends have to be known.
+    known: Known,
     questions: usize,
 }
 
 impl Probing<'_> {
     fn along(&mut self, [c, s]: [f64; 2]) -> Limit {
         self.questions += 1;
-        limit(self.assembly, self.blocks, &self.pushes[0].plus(c, &self.pushes[1], s), self.cone)
+        let push = self.pushes[0].plus(c, &self.pushes[1], s);
+        limit_known(self.assembly, self.blocks, &push, self.cone, self.known)
+    }
+
+    /// The interval along a direction, or if that has no answer along one beside it: its lines bound the region as well.
+    fn beside(&mut self, direction: [f64; 2]) -> ([f64; 2], Limit) {
+        let mut found = self.along(direction);
+        for turn in BESIDE {
+            if matches!(found.status, Status::Solved | Status::NoSolution) {
+                break;
+            }
+            let [c, s] = direction;
+            let near = [c - turn * s, s + turn * c].map(|x| x / turn.hypot(1.0));
+            let again = self.along(near);
+            if again.status == Status::Solved {
+                return (near, again);
+            }
+            found = again;
+        }
+        (direction, found)
     }
 
     /// A margin of none: it falls under its own loads, if it does.
@@ -196,7 +229,7 @@ impl Probing<'_> {
         let mut ends: Vec<(Support, End)> = Vec::new();
         let mut next = vec![[1.0, 0.0], [0.0, 1.0]];
         while let Some(direction) = next.pop() {
-            let found = self.along(direction);
+            let (direction, found) = self.beside(direction);
             if let Some(fallen) = self.fallen(&found) {
                 return fallen;
             }
