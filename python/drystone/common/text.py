@@ -37,9 +37,29 @@ def counted(number: int, thing: str, things: str | None = None) -> str:
     return f"{number} {thing if number == 1 else things or thing + 's'}"
 
 
-def place(numbers: Iterable[float]) -> str:
-    """(0.5, 1), in four digits."""
-    return f"({', '.join(f'{x:.4g}' for x in numbers)})"
+NOTHING = 1e-9
+"""A number smaller than this share of the largest of its kind is printed as 0: forces balance every
+block to 1e-9, and places are rounded too, so that it says nothing."""
+
+
+def digits(value: float, largest: float, count: int = 4) -> str:
+    """So many digits of a number; 0 for what rounding left beside the largest of its kind.
+
+    >>> digits(0.27182818, 1.0), digits(-1.4e-17, 1.0)
+    ('0.2718', '0')
+    """
+    return f"{value:.{count}g}" if abs(value) > NOTHING * largest else "0"
+
+
+def place(numbers: Iterable[float], count: int = 4) -> str:
+    """(0.5, 1): a point or a direction, in four digits or so many.
+
+    >>> place((0.5, 1.0)), place((-6.1e-17, -1.0), 3)
+    ('(0.5, 1)', '(0, -1)')
+    """
+    given = [float(x) for x in numbers]
+    largest = max(map(abs, given), default=0.0)
+    return f"({', '.join(digits(x, largest, count) for x in given)})"
 
 
 def shorten(names: Iterable[str], limit: int = 8) -> str:
