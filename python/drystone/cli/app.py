@@ -342,7 +342,7 @@ def simulate(
 @app.command("import")
 def import_(
     file: Annotated[
-        Path,
+        str,
         typer.Argument(
             metavar="FILE",
             help="A COMPAS assembly (.json), a folder of meshes or its manifest.json, MJCF (.xml), "

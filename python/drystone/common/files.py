@@ -18,6 +18,9 @@ JSON = ".json"
 RUN = ".npz"
 """How the names of what drystone writes end."""
 
+EMPTY = "the file is empty: export it again"
+"""What to say of no bytes at all."""
+
 
 def ending_of(path: str | PathLike[str], known: Sequence[str]) -> str:
     """How a name ends, in small letters; ValueError, before any work, if that is none of `known`.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from difflib import get_close_matches
 
 MOST_ROWS = 40
 """Longer tables are cut, with a line that says so."""
@@ -30,6 +31,17 @@ def _escaped(c: str) -> str:
     if c in _TURNING or unicodedata.category(c) in _UNSHOWN:
         return c.encode("unicode_escape").decode("ascii")
     return c
+
+
+def like(word: str, known: Iterable[str]) -> str:
+    """The nearest of the `known` words, as a question; empty if none is near.
+
+    >>> like("Boden", ["wall", "boden"]), like("x", ["boden"])
+    (" (did you mean 'boden'?)", '')
+    """
+    small = {name.casefold(): name for name in sorted(known)}
+    near = get_close_matches(word.casefold(), small, n=1)
+    return f" (did you mean {small[near[0]]!r}?)" if near else ""
 
 
 def counted(number: int, thing: str, things: str | None = None) -> str:

@@ -18,6 +18,7 @@ from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.compas_kind import is_assembly
 from drystone.imports.fields import read_json
+from drystone.imports.foreign import UNREAD, unread
 from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
 from drystone.imports.rigid import JOINTS
@@ -149,6 +150,8 @@ def load(
     make a scene (two of them overlap), and OSError for a file that cannot be read.
     """
     live = compas_data.is_live(path)
+    if path == "":
+        raise FormatError("the file's name is empty")
     source: Any = path if live else Path(fspath(cast("str | PathLike[str]", path)))
     if up not in UP:
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
@@ -259,6 +262,8 @@ def _read(path: Path, collected: Collected, taking: Taking, split: str | None) -
         return _read_json(path, collected, taking)
     if ending in (".xml", ".mjcf", ".urdf"):
         return _read_xml(path, collected, taking)
+    if ending in UNREAD:
+        raise FormatError(f"{path}: {unread(path)}")
     known = ", ".join((".json", ".xml", ".urdf", *ENDINGS))
     raise FormatError(f"{path}: not known by its name: a folder, or one of {known}")
 

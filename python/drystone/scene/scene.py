@@ -275,7 +275,10 @@ class Scene(Adding, Paged):
         be written.
         """
         if later.lies(Path(path)):
-            raise _core.SceneError(f"{fspath(path)}: a scene is JSON: let its name end in .json")
+            raise _core.SceneError(
+                f"{fspath(path)}: a scene is saved as JSON: let its name end in .json "
+                "(draw makes pictures and pages)"
+            )
         write_whole(Path(path), self.to_json().encode())
 
     def to_json(self) -> str:
