@@ -200,9 +200,30 @@ def test_help(cli: Cli, command: list[str]) -> None:
 def test_help_shows_flags_without_a_value(cli: Cli, command: str, flags: list[str]) -> None:
     lines = cli(*command.split(), "--help").out.splitlines()
     for flag in [*flags, "-h"]:
-        (line,) = (x for x in lines if f" {flag} " in x)
+        line = next(x for x in lines if f" {flag} " in x)
         after = line.partition(f" {flag} ")[2]
         assert re.match(r"\s+[A-Z]", after), line  # the first word of what it does
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "check column:3",
+        "check arch:thickness=0.1",
+        "limit column:3 --push 1:1,0",
+        "margin column:3",
+        "plan column:3",
+    ],
+)
+def test_answers_are_written_as_they_are_printed(cli: Cli, command: str, tmp_path: Path) -> None:
+    written = cli(*command.split(), "-o", tmp_path / "answer.json")
+    assert "answer.json" in written.out
+    printed = cli(*command.split(), "--json")
+    assert written.status == printed.status
+    told, here = json.loads((tmp_path / "answer.json").read_text()), json.loads(printed.out)
+    assert told.keys() == here.keys()
+    timed = ("seconds", "test_seconds", "records", "whole")
+    assert all(told[key] == here[key] for key in told if key not in timed)
 
 
 def test_version(cli: Cli) -> None:

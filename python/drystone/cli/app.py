@@ -203,8 +203,9 @@ def plan(
         typer.Option(
             "-o",
             "--output",
-            help="Write a picture (.svg, .pdf, .png), a page to step through (.html) or a film "
-            "(.gif, .mp4). For a folder of scenes: where its plans are kept.",
+            help="Write a picture (.svg, .pdf, .png), a page to step through (.html), a film "
+            "(.gif, .mp4) or what --json prints (.json). For a folder of scenes: where its plans "
+            "are kept.",
         ),
     ] = None,
     engine: Annotated[

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Protocol
 
 from drystone.cli.errors import InputError
 from drystone.common.extras import require
-from drystone.common.files import FILMS, PAGE, PICTURES, RUN, ending_of
+from drystone.common.files import FILMS, JSON, PAGE, PICTURES, RUN, ending_of
+from drystone.common.json_text import Written, save_json
 from drystone.common.text import shown
 
 if TYPE_CHECKING:
@@ -109,11 +110,14 @@ class Drawn(Protocol):
     def draw(self, path: str | PathLike[str]) -> None: ...
 
 
-def draw(answer: Drawn, picture: Path | None) -> None:
-    """Its picture, if one was asked for."""
-    if picture is not None:
+def write(answer: Written, drawn: Drawn, path: Path | None) -> None:
+    """The answer as JSON, or the picture or page of what is drawn of it, if one was asked for."""
+    if path is not None:
         with reporting_files():
-            answer.draw(picture)
+            if path.suffix.lower() == JSON:
+                save_json(answer, path)
+            else:
+                drawn.draw(path)
 
 
 def python_name(name: str) -> str:
@@ -126,6 +130,7 @@ KINDS = {
     **dict.fromkeys(FILMS, "film"),
     PAGE: "page",
     RUN: "run",
+    JSON: "answer",
 }
 """What a file is, by the ending of its name."""
 

@@ -19,7 +19,7 @@ from drystone.cli.inputs import (
 )
 from drystone.cli.output import console, facts, in_a_row, names
 from drystone.common.cones import Pyramid
-from drystone.common.files import FILMS, PAGE
+from drystone.common.files import FILMS, JSON, PAGE
 from drystone.common.progress import ForcesProgress, PlanProgress
 from drystone.common.text import shown
 from drystone.common.units import scale_of
@@ -58,7 +58,7 @@ def run(
         )
     if strong and (margin or order != "any"):
         raise InputError("--strong goes without --margin and --order robust")
-    picture = picture_path(output, PAGE, *FILMS)
+    picture = picture_path(output, PAGE, JSON, *FILMS)
     scene = load_scene(scene_name)
     in_the_way = None if obstacles is None else load_scene(obstacles)
     with PlanProgress() as progress:
@@ -81,12 +81,12 @@ def run(
             facets=facets,
             cone=cone,
         )
+    if found.whole is not None and (as_json or (picture and kind_of(picture) == "answer")):
+        found = replace(found, whole=with_forces_in_time(found.whole))
     if picture is not None:
         with reporting_files():
             _write(found, picture)
     if as_json:
-        if found.whole is not None:
-            found = replace(found, whole=with_forces_in_time(found.whole))
         found.write_json(sys.stdout)
     else:
         _print(found, picture)
