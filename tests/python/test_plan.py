@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 
 import numpy as np
@@ -113,6 +114,8 @@ def test_where_no_order_exists_a_hold_is_named_that_may_help() -> None:
     assert (held.found, held.hold, held.next_hold) == (True, 1, None)
     assert ds.plan(scene, strong=True).next_hold is None
     assert ds.plan(scene, margin=0.01).next_hold is None
+    counted = ds.plan(scene, hold=np.int64(1), time_limit=np.inf)
+    assert json.loads(json.dumps(counted.to_dict()))["hold"] == 1
     assert ds.plan(scene, node_limit=0).next_hold is None, "it may have an order"
 
 

@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias, get_args
 
 from drystone import _core
 from drystone.common.cones import CONES, FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.numbers import number, optional_number, vector, whole
+from drystone.common.numbers import number, optional_number, optional_whole, vector, whole
 from drystone.planning.answer import Plan
 from drystone.planning.robust import robust
 from drystone.scene import Scene
@@ -121,12 +121,15 @@ def plan(
     >>> ds.plan(ds.scenes.arch(7)).status, ds.plan(ds.scenes.arch(7), hold=1).status
     ('no_order', 'found')
     """
-    for count, what in ((hold, "hold"), (moves, "moves"), (together, "together")):
+    hold, moves, together = (
         whole(count, what)
-    for most, what in ((node_limit, "node_limit"), (threads, "threads")):
-        if most is not None:
-            whole(most, what)
+        for count, what in ((hold, "hold"), (moves, "moves"), (together, "together"))
+    )
+    node_limit = optional_whole(node_limit, "node_limit")
+    threads = optional_whole(threads, "threads")
     time_limit = optional_number(time_limit, "time_limit")
+    if time_limit == math.inf:
+        time_limit = None
     if progress is not None and not callable(progress):
         raise TypeError(f"progress must be a function, not {progress!r:.80}")
     if hold < 0:
