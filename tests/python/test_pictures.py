@@ -212,3 +212,18 @@ def test_where_blocks_are_going_is_within_the_picture(space: bool) -> None:
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     assert left < low[0] < high[0] < right
     assert bottom < low[1] < high[1] < top
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_the_picture_of_a_run_is_of_its_end(space: bool) -> None:
+    """A block has fallen from ten times its height: the sky it fell through is not shown; in the
+    frames of a film it is."""
+    scene = ds.Scene(friction=0.5)
+    scene.add_box((0, -0.5), (2, 1), name="ground", fixed=True)
+    scene.add_box((0, 10), (1, 1), name="block")
+    run = ds.simulate(scene.extruded(1.0) if space else scene, steps=480)
+    assert not run.moving
+    (axes,) = pictures.figure_of(run).axes
+    assert np.ptp(axes.get_ylim()) < 4
+    (axes,) = pictures.frame_figure(run.view().recording, run.steps).axes
+    assert np.ptp(axes.get_ylim()) > 8

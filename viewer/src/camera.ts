@@ -71,17 +71,28 @@ export function viewOf(film: Film): Box {
     const first = around(film, 0, shown) ?? [0, 0, 1, 1];
     const size = Math.max(first[2] - first[0], first[3] - first[1]);
     let box = first;
+    const fixed = around(film, 0, every) ?? box;
+    const limit = asFarAsItFalls(grown(first, MOTION_REACH * size), fixed, film.gravity);
     const stride = Math.max(1, Math.floor(film.count / SAMPLES));
     for (let frame = 0; frame < film.count && film.times; frame += stride) {
         const now = around(film, frame, shown);
-        if (now) box = joined(box, within(now, grown(first, MOTION_REACH * size)));
+        if (now) box = joined(box, within(now, limit));
     }
     if (movable.length > 0) {
         const reach = FIXED_REACH * Math.max(box[2] - box[0], box[3] - box[1]);
-        const fixed = around(film, 0, every) ?? box;
         box = joined(box, within(fixed, grown(box, reach)));
     }
     return grown(box, MARGIN * Math.max(box[2] - box[0], box[3] - box[1]));
+}
+
+/** The limit, but down to where fixed bodies are: what falls on them is seen to land. */
+function asFarAsItFalls(limit: Box, fixed: Box, [x, y]: number[]): Box {
+    return [
+        x < 0 ? Math.min(limit[0], fixed[0]) : limit[0],
+        y < 0 ? Math.min(limit[1], fixed[1]) : limit[1],
+        x > 0 ? Math.max(limit[2], fixed[2]) : limit[2],
+        y > 0 ? Math.max(limit[3], fixed[3]) : limit[3],
+    ];
 }
 
 function around(film: Film, frame: number, bodies: number[]): Box | null {

@@ -19,7 +19,7 @@ from drystone.common.drawn import DPI
 from drystone.common.files import write_whole
 from drystone.motion.run import Run
 from drystone.pictures.canvas import rendered
-from drystone.pictures.recording import frame_figure
+from drystone.pictures.recording import frame_figure, frames_box
 from drystone.planning.answer import Plan
 from drystone.recording.of_plan import plan_recording
 from drystone.recording.of_run import recording_of_run
@@ -56,8 +56,10 @@ def film_of(recording: Recording, path: str | PathLike[str], dpi: float = DPI) -
     target = Path(fspath(path))
     ffmpeg = _ffmpeg() if target.suffix.lower() == ".mp4" else None
     frames, per_second = _chosen(recording)
+    box = frames_box(recording)
+    figures = (frame_figure(recording, frame, box) for frame in frames)
     pictures = _of_one_size(
-        [Image.open(io.BytesIO(rendered(frame_figure(recording, k), "png", dpi))) for k in frames]
+        [Image.open(io.BytesIO(rendered(figure, "png", dpi))) for figure in figures]
     )
     if ffmpeg is None:
         write_whole(target, _gif(pictures, per_second))

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import TypeAlias
+
 import numpy as np
+from numpy.typing import NDArray
 
 from drystone.pictures import style
 from drystone.recording.contract import ABSENT, FALLING, MOTIONLESS, NEXT, PRESENT
 from drystone.recording.recording import FrameForces, Recording
+from drystone.scene import Body, Solid
 
 FILLS = {
     PRESENT: style.STONE,
@@ -20,6 +25,41 @@ REACH = 0.5
 """How far bodies that move away may widen the view, in the size of the first frame."""
 FEW = 0.99
 """The share of forces that are no longer than a block: an impact may be far beyond."""
+
+
+Box: TypeAlias = "tuple[NDArray[np.float64], NDArray[np.float64]]"
+"""The lower and the upper corner."""
+
+
+def box_around(
+    recording: Recording,
+    moved: Callable[[int], Sequence[Body | Solid]],
+    frames: Sequence[int] | None,
+) -> Box:
+    """Around the movable bodies in these frames, or in all of them, but not far from where they
+    begin except down; `moved` puts the bodies where a frame has them."""
+    first = moved(0)
+    movable = [body.vertices for body in first if not body.fixed]
+    start = np.concatenate(movable or [body.vertices for body in first] or [np.zeros((1, 3))])
+    low, high = start.min(axis=0), start.max(axis=0)
+    if recording.poses is None:
+        return low, high
+    reach = REACH * float(np.max(high - low))
+    least, most = low - reach, high + reach
+    # Down to where fixed bodies are: what falls on them is seen to land.
+    corners = np.concatenate([body.vertices for body in first])
+    pull = np.asarray(recording.gravity)
+    least = np.where(pull < 0, np.minimum(least, corners.min(axis=0)), least)
+    most = np.where(pull > 0, np.maximum(most, corners.max(axis=0)), most)
+    points = [start] if frames is None else []
+    for frame in sampled(recording) if frames is None else frames:
+        points += [
+            np.clip(body.vertices, least, most)
+            for body, state in zip(moved(frame), recording.states[frame].tolist(), strict=True)
+            if not body.fixed and state != ABSENT
+        ]
+    every = np.concatenate(points or [start])
+    return every.min(axis=0), every.max(axis=0)
 
 
 def fills_in(recording: Recording, frame: int) -> dict[str, str]:

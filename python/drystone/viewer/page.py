@@ -72,9 +72,10 @@ class Page:
         target = Path(fspath(folder))
         target.mkdir(parents=True, exist_ok=True)
         written = []
+        box = pictures.frames_box(self.recording)
         for frame in range(len(self.recording.states)) if frames is None else frames:
             path = target / f"frame-{frame:05}{suffix}"
-            pictures.save(pictures.frame_figure(self.recording, frame), path)
+            pictures.save(pictures.frame_figure(self.recording, frame, box), path)
             written.append(path)
         return written
 

@@ -75,28 +75,35 @@ export function boxOf(film: Film): [Vector3, Vector3] {
     const stride = Math.max(1, Math.floor(film.count / SAMPLES));
     const [far, wide] = [low.clone(), high.clone()];
     const reach = MOTION_REACH * size;
+    // Down to where fixed bodies are: what falls on them is seen to land.
+    const fixed = boxIn(film, 0, every);
+    const [least, most] = [low.clone().subScalar(reach), high.clone().addScalar(reach)];
+    for (const axis of ["x", "y", "z"] as const) {
+        const pull = new Vector3(...film.gravity)[axis];
+        if (pull < 0) least[axis] = Math.min(least[axis], fixed[0][axis]);
+        if (pull > 0) most[axis] = Math.max(most[axis], fixed[1][axis]);
+    }
     for (let frame = stride; frame < film.count && film.times; frame += stride) {
         const there = shown.filter((body) => film.state(frame, body) !== State.absent);
-        widen(far, wide, boxIn(film, frame, there), low, high, reach);
+        widen(far, wide, boxIn(film, frame, there), least, most);
     }
-    const [kept, grown] = [far.clone(), wide.clone()];
-    if (movable.length > 0)
-        widen(far, wide, boxIn(film, 0, every), kept, grown, FIXED_REACH * size);
+    const strip = FIXED_REACH * size;
+    const [kept, grown] = [far.clone().subScalar(strip), wide.clone().addScalar(strip)];
+    if (movable.length > 0) widen(far, wide, fixed, kept, grown);
     return [far, wide];
 }
 
-/** Makes the box from `far` to `wide` hold another, as far as it reaches beyond low and high. */
+/** Makes the box from `far` to `wide` hold another, but no more than is between two corners. */
 function widen(
     far: Vector3,
     wide: Vector3,
     other: [Vector3, Vector3],
-    low: Vector3,
-    high: Vector3,
-    reach: number,
+    least: Vector3,
+    most: Vector3,
 ): void {
     if (other[0].x > other[1].x) return;
-    far.min(other[0].max(low.clone().subScalar(reach)));
-    wide.max(other[1].min(high.clone().addScalar(reach)));
+    far.min(other[0].clone().max(least));
+    wide.max(other[1].clone().min(most));
 }
 
 function boxIn(film: Film, frame: number, bodies: number[]): [Vector3, Vector3] {
