@@ -41,25 +41,39 @@ def box_around(
     first = moved(0)
     movable = [body.vertices for body in first if not body.fixed]
     start = np.concatenate(movable or [body.vertices for body in first] or [np.zeros((1, 3))])
-    low, high = start.min(axis=0), start.max(axis=0)
     if recording.poses is None:
-        return low, high
-    reach = REACH * float(np.max(high - low))
-    least, most = low - reach, high + reach
-    # Down to where fixed bodies are: what falls on them is seen to land.
-    corners = np.concatenate([body.vertices for body in first])
-    pull = np.asarray(recording.gravity)
-    least = np.where(pull < 0, np.minimum(least, corners.min(axis=0)), least)
-    most = np.where(pull > 0, np.maximum(most, corners.max(axis=0)), most)
+        return start.min(axis=0), start.max(axis=0)
     points = [start] if frames is None else []
     for frame in sampled(recording) if frames is None else frames:
+        states = recording.states[frame].tolist()
         points += [
-            np.clip(body.vertices, least, most)
-            for body, state in zip(moved(frame), recording.states[frame].tolist(), strict=True)
+            body.vertices
+            for body, state in zip(moved(frame), states, strict=True)
             if not body.fixed and state != ABSENT
         ]
     every = np.concatenate(points or [start])
-    return every.min(axis=0), every.max(axis=0)
+    low, high = every.min(axis=0), every.max(axis=0)
+    floor = np.concatenate([body.vertices for body in first])
+    size = np.ptp(start, axis=0)
+    for _ in range(2):  # first how far it falls, then as far beside it
+        least, most = _limit(start, floor, np.asarray(recording.gravity), REACH * np.max(size))
+        corners = np.clip(low, least, most), np.clip(high, least, most)
+        size = corners[1] - corners[0]
+    return corners
+
+
+def _limit(
+    start: NDArray[np.float64],
+    floor: NDArray[np.float64],
+    pull: NDArray[np.float64],
+    reach: np.float64,
+) -> Box:
+    """The box around the start and so far beyond it, and down to where anything is: what falls on
+    fixed bodies is seen to land."""
+    least, most = start.min(axis=0) - reach, start.max(axis=0) + reach
+    least = np.where(pull < 0, np.minimum(least, floor.min(axis=0)), least)
+    most = np.where(pull > 0, np.maximum(most, floor.max(axis=0)), most)
+    return least, most
 
 
 def fills_in(recording: Recording, frame: int) -> dict[str, str]:

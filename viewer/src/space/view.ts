@@ -71,39 +71,56 @@ export function boxOf(film: Film): [Vector3, Vector3] {
     const shown = movable.length > 0 ? movable : every;
     if (shown.length === 0) return [new Vector3(0, 0, 0), new Vector3(1, 1, 1)];
     const [low, high] = boxIn(film, 0, shown);
-    const size = Math.max(...high.clone().sub(low).toArray());
-    const stride = Math.max(1, Math.floor(film.count / SAMPLES));
-    const [far, wide] = [low.clone(), high.clone()];
-    const reach = MOTION_REACH * size;
-    // Down to where fixed bodies are: what falls on them is seen to land.
     const fixed = boxIn(film, 0, every);
-    const [least, most] = [low.clone().subScalar(reach), high.clone().addScalar(reach)];
-    for (const axis of ["x", "y", "z"] as const) {
-        const pull = new Vector3(...film.gravity)[axis];
-        if (pull < 0) least[axis] = Math.min(least[axis], fixed[0][axis]);
-        if (pull > 0) most[axis] = Math.max(most[axis], fixed[1][axis]);
-    }
+    const swept: [Vector3, Vector3] = [low.clone(), high.clone()];
+    const stride = Math.max(1, Math.floor(film.count / SAMPLES));
     for (let frame = stride; frame < film.count && film.times; frame += stride) {
         const there = shown.filter((body) => film.state(frame, body) !== State.absent);
-        widen(far, wide, boxIn(film, frame, there), least, most);
+        const now = boxIn(film, frame, there);
+        swept[0].min(now[0]);
+        swept[1].max(now[1]);
     }
-    const strip = FIXED_REACH * size;
-    const [kept, grown] = [far.clone().subScalar(strip), wide.clone().addScalar(strip)];
-    if (movable.length > 0) widen(far, wide, fixed, kept, grown);
-    return [far, wide];
+    let box: [Vector3, Vector3] = [low, high];
+    // First how far it falls, then as far beside it.
+    for (let turn = 0; turn < 2; turn++) {
+        const limit = asFarAsItFalls(grown([low, high], MOTION_REACH * sizeOf(box)), fixed, film);
+        box = joined([low, high], swept, limit);
+    }
+    return movable.length > 0 ? joined(box, fixed, grown(box, FIXED_REACH * sizeOf(box))) : box;
 }
 
-/** Makes the box from `far` to `wide` hold another, but no more than is between two corners. */
-function widen(
-    far: Vector3,
-    wide: Vector3,
+function sizeOf([low, high]: [Vector3, Vector3]): number {
+    return Math.max(...high.clone().sub(low).toArray());
+}
+
+function grown([low, high]: [Vector3, Vector3], by: number): [Vector3, Vector3] {
+    return [low.clone().subScalar(by), high.clone().addScalar(by)];
+}
+
+/** The limit, but down to where fixed bodies are: what falls on them is seen to land. */
+function asFarAsItFalls(
+    [low, high]: [Vector3, Vector3],
+    fixed: [Vector3, Vector3],
+    film: Film,
+): [Vector3, Vector3] {
+    const pull = new Vector3(...film.gravity);
+    for (const axis of ["x", "y", "z"] as const) {
+        if (pull[axis] < 0) low[axis] = Math.min(low[axis], fixed[0][axis]);
+        if (pull[axis] > 0) high[axis] = Math.max(high[axis], fixed[1][axis]);
+    }
+    return [low, high];
+}
+
+/** A box that holds one, and of another what is within the limit. */
+function joined(
+    one: [Vector3, Vector3],
     other: [Vector3, Vector3],
-    least: Vector3,
-    most: Vector3,
-): void {
-    if (other[0].x > other[1].x) return;
-    far.min(other[0].clone().max(least));
-    wide.max(other[1].clone().min(most));
+    limit: [Vector3, Vector3],
+): [Vector3, Vector3] {
+    return [
+        one[0].clone().min(other[0].clone().max(limit[0])),
+        one[1].clone().max(other[1].clone().min(limit[1])),
+    ];
 }
 
 function boxIn(film: Film, frame: number, bodies: number[]): [Vector3, Vector3] {
