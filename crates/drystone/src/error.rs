@@ -194,7 +194,7 @@ pub enum SceneError {
     /// Two blocks occupy the same place by more than the contact tolerance.
     #[error(
         "blocks \"{a}\" and \"{b}\" overlap by {depth:.3e} m, more than the contact tolerance of \
-         {tolerance:.3e} m: move them apart, or raise the scene's contact_tolerance if the depth \
+         {tolerance:.3e} m: move them apart (scene.parted() does), or raise the scene's contact_tolerance if the depth \
          is mere rounding; a picture of the scene (scene.draw, or drystone scene FILE -o x.svg) shows where"
     )]
     Overlap {

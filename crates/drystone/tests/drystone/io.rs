@@ -206,6 +206,12 @@ fn a_file_cut_anywhere_is_an_error() {
 }
 
 #[test]
+fn a_byte_order_mark_before_the_text_is_no_error() {
+    let text = text_of(&scenes::five_blocks(0.0).unwrap());
+    assert_eq!(io::from_json(&format!("\u{feff}{text}"), "marked").unwrap().to_json(), text);
+}
+
+#[test]
 fn an_empty_file_is_said_to_be_empty() {
     for text in ["", " \n\n"] {
         assert!(matches!(error_of(text), FileError::Empty { .. }), "{}", error_of(text));
