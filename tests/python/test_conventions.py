@@ -18,6 +18,7 @@ from typing import Any, get_args
 import numpy as np
 import pytest
 import trimesh
+from matplotlib.figure import Figure
 
 import drystone as ds
 from conftest import ROOT
@@ -63,6 +64,8 @@ WRONG_TYPES: dict[str, tuple[Callable[[], object], str]] = {
     "one string of fixed bodies": (lambda: ds.imports.load("a.stl", fixed="ab"), "list of names"),
     "no mesh": (lambda: ds.Scene(3).add_mesh(None), "trimesh"),  # type: ignore[arg-type]
     "no axes": (lambda: SCENE.draw(ax="a.svg"), "axes of matplotlib"),  # type: ignore[arg-type]
+    "a figure for axes": (lambda: SCENE.draw(ax=Figure()), "axes of matplotlib"),  # type: ignore[arg-type]
+    "axes for a name": (lambda: SCENE.draw(Figure().subplots()), "draw\\(ax=axes\\)"),  # type: ignore[arg-type]
     "no progress": (lambda: ds.plan(SCENE, progress=3), "a function"),  # type: ignore[arg-type]
     "a number for a method": (lambda: ds.check(SCENE, method=3), "text"),  # type: ignore[arg-type]
     "text for seconds": (lambda: ds.plan(SCENE, time_limit=[]), "time_limit"),  # type: ignore[arg-type]

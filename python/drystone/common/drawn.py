@@ -32,11 +32,8 @@ class Drawn:
 
         Raises ValueError for another ending, and TypeError unless one of `path` and `ax` is given.
         """
-        if (path is None) == (ax is None):
-            raise TypeError("draw wants a file's name, or ax=: one of the two")
+        _require_one(path, ax)
         if ax is not None:
-            if not hasattr(ax, "get_window_extent"):
-                raise TypeError(f"ax must be axes of matplotlib, not {ax!r:.80}")
             later.draw_on(self, ax)
         elif path is not None:
             ending_of(path, PICTURES)
@@ -59,7 +56,8 @@ class Paged(Drawn):
         self, path: str | PathLike[str] | None = None, *, ax: Axes | None = None, dpi: float = DPI
     ) -> None:
         """Write a picture as `Drawn.draw` does, or a page if the name ends in .html."""
-        if path is not None and ax is None and ending_of(path, (*PICTURES, PAGE)) == PAGE:
+        _require_one(path, ax)
+        if path is not None and ending_of(path, (*PICTURES, PAGE)) == PAGE:
             self.view().save(path)
         else:
             super().draw(path, ax=ax, dpi=dpi)
@@ -67,3 +65,13 @@ class Paged(Drawn):
     def view(self) -> Page:
         """The page: save it, show it, or let a notebook show it."""
         return later.page(self)
+
+
+def _require_one(path: object, ax: object) -> None:
+    """TypeError unless a name or axes are given."""
+    if (path is None) == (ax is None):
+        raise TypeError("draw wants a file's name, or ax=: one of the two")
+    if hasattr(path, "set_xlim"):
+        raise TypeError("draw wants axes by name: draw(ax=axes)")
+    if ax is not None and not hasattr(ax, "set_xlim"):
+        raise TypeError(f"ax must be axes of matplotlib, not a {type(ax).__name__}")
