@@ -7,7 +7,7 @@ use super::{
 use crate::{
     check::check_blocks_while,
     crossover::from_interior,
-    formulate::{Assembly, BlockSet, Constrained, FrictionCone, Push},
+    formulate::{Assembly, BlockSet, Constrained, ContactForce, FrictionCone, Push},
     judgement::{CLOSING, MARGIN},
     proof::{moving, power_of_fall},
     threads::at_once,
@@ -29,6 +29,12 @@ impl Known {
     /// mechanism is apart.
     pub fn well() -> Self {
         Self { apart: 1e-8, imbalance: 1e-7 }
+    }
+
+    /// Whether the forces hold the structure up to a factor beyond which the motion proves that it falls.
+    fn proves(self, end: &End) -> bool {
+        let apart = (end.bound - end.factor).abs() <= self.apart * end.factor.abs().max(1.0);
+        apart && end.imbalance <= self.imbalance && end.closing <= CLOSING
     }
 
     /// Where the answer may be off by a tolerance: a hundredth of it. Round cones that only just slide, all at once, leave some
@@ -105,9 +111,33 @@ pub(super) fn end(
     if !finite {
         return Err(End::unknown());
     }
-    let end = End::new(assembly, blocks, push, cone, sign * found.factor, motion, forces);
-    let apart = (end.bound - end.factor).abs() <= known.apart * end.factor.abs().max(1.0);
-    if apart && end.imbalance <= known.imbalance && end.closing <= CLOSING { Ok(end) } else { Err(end) }
+    let end = End::new(assembly, blocks, push, cone, sign * found.factor, motion.clone(), forces);
+    if known.proves(&end) {
+        return Ok(end);
+    }
+    let (factor, forces) = held_before(assembly, blocks, push, cone, sign, known, &end).ok_or(end.clone())?;
+    let held = End::new(assembly, blocks, push, cone, factor, motion, forces);
+    if known.proves(&held) { Ok(held) } else { Err(end) }
+}
+
+/// Forces that hold it a little before the bound of its mechanism. Where round cones are met by many contacts at once, the forces at
+/// the end itself have some digits less than the mechanism; those before it are found from nothing.
+fn held_before(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    push: &Push,
+    cone: FrictionCone,
+    sign: f64,
+    known: Known,
+    end: &End,
+) -> Option<(f64, Vec<ContactForce>)> {
+    if !(end.bound.is_finite() && end.closing <= CLOSING) {
+        return None;
+    }
+    let factor = end.bound - 0.5 * sign * known.apart * end.bound.abs().max(1.0);
+    let pushed = assembly.pushed(push, factor);
+    let verdict = check_blocks_while(&pushed, blocks, cone, &mut |_| true).expect("nobody stops it");
+    verdict.stable.then(|| (factor, verdict.forces.into_iter().map(|(_, force)| force).collect()))
 }
 
 /// Whether contacts bear the push however large: blocks without weight stand under it.

@@ -54,9 +54,6 @@ pub struct Margin {
 /// Most questions for a boundary.
 const MOST: usize = 200;
 
-/// Turns of a direction without an answer, radians: methods that stall in one plane of symmetry do not beside it.
-const BESIDE: [f64; 2] = [1e-3, -1e-3];
-
 /// What is asked of a margin.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked {
@@ -174,24 +171,6 @@ impl Probing<'_> {
         limit_known(self.assembly, self.blocks, &push, self.cone, self.known)
     }
 
-    /// The interval along a direction, or if that has no answer along one beside it: its lines bound the region as well.
-    fn beside(&mut self, direction: [f64; 2]) -> ([f64; 2], Limit) {
-        let mut found = self.along(direction);
-        for turn in BESIDE {
-            if matches!(found.status, Status::Solved | Status::NoSolution) {
-                break;
-            }
-            let [c, s] = direction;
-            let near = [c - turn * s, s + turn * c].map(|x| x / turn.hypot(1.0));
-            let again = self.along(near);
-            if again.status == Status::Solved {
-                return (near, again);
-            }
-            found = again;
-        }
-        (direction, found)
-    }
-
     /// A margin of none: it falls under its own loads, if it does.
     fn fallen(&self, found: &Limit) -> Option<Margin> {
         let falls = |end: &End| Some(self.margin(0.0, [0.0; 2], end.clone()));
@@ -229,7 +208,7 @@ impl Probing<'_> {
         let mut ends: Vec<(Support, End)> = Vec::new();
         let mut next = vec![[1.0, 0.0], [0.0, 1.0]];
         while let Some(direction) = next.pop() {
-            let (direction, found) = self.beside(direction);
+            let found = self.along(direction);
             if let Some(fallen) = self.fallen(&found) {
                 return fallen;
             }
