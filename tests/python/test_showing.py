@@ -15,6 +15,7 @@ from PIL import Image
 
 import drystone as ds
 from drystone.common.drawn import Drawn
+from drystone.pictures import save_film
 
 THINGS: dict[str, Callable[[], Drawn]] = {
     "scene": lambda: ds.scenes.arch(5),
@@ -122,6 +123,13 @@ def test_a_run_is_saved_as_what_the_name_says(tmp_path: Path) -> None:
     with Image.open(tmp_path / "run.gif") as film:
         assert film.n_frames == 3  # 0.1 s at 25 pictures a second, both ends included
         assert film.info["duration"] == 40
+
+
+def test_who_waits_for_a_film_is_told_how_far_it_is(tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    run = ds.simulate(ds.scenes.fall7(), steps=24)
+    save_film(run, tmp_path / "a.gif", 40, lambda *done: told.append(done))
+    assert told == [(1, 3), (2, 3), (3, 3)]
 
 
 def test_a_plan_is_a_film_of_its_steps(tmp_path: Path) -> None:

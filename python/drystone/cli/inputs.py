@@ -11,9 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from drystone.cli.errors import InputError
+from drystone.common import later
+from drystone.common.drawn import DPI
 from drystone.common.extras import require
 from drystone.common.files import FILMS, JSON, PAGE, PICTURES, RUN, ending_of
 from drystone.common.json_text import Written, save_json
+from drystone.common.progress import FilmProgress
 from drystone.common.text import shown
 
 if TYPE_CHECKING:
@@ -118,6 +121,12 @@ def write(answer: Written, drawn: Drawn, path: Path | None) -> None:
                 save_json(answer, path)
             else:
                 drawn.draw(path)
+
+
+def save_film(answer: object, path: Path) -> None:
+    """The film of a plan or a run, with a bar while it is drawn."""
+    with FilmProgress() as progress:
+        later.film(answer, path, DPI, progress)
 
 
 def python_name(name: str) -> str:

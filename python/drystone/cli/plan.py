@@ -16,6 +16,7 @@ from drystone.cli.inputs import (
     picture_path,
     reporting_files,
     said_of,
+    save_film,
 )
 from drystone.cli.output import console, facts, in_a_row, names
 from drystone.common.cones import Pyramid
@@ -94,12 +95,14 @@ def run(
 
 
 def _write(found: Plan, path: Path) -> None:
-    if kind_of(path) != "page":
+    if kind_of(path) == "film":
+        save_film(found, path)
+    elif kind_of(path) != "page":
         found.save(path)
-        return
-    with ForcesProgress() as progress:
-        page = found.view(progress)
-    page.save(path)
+    else:
+        with ForcesProgress() as progress:
+            page = found.view(progress)
+        page.save(path)
 
 
 def _print(found: Plan, picture: Path | None) -> None:

@@ -13,6 +13,7 @@ from drystone.cli.inputs import (
     picture_path,
     reporting_files,
     said_of,
+    save_film,
 )
 from drystone.cli.output import console, facts
 from drystone.common.cones import Pyramid
@@ -62,7 +63,10 @@ def run(
         )
     if output is not None:
         with reporting_files():
-            made.save(output)
+            if kind_of(output) == "film":
+                save_film(made, output)
+            else:
+                made.save(output)
     if as_json:
         print(json.dumps(made.to_dict(), indent=2))
     else:
