@@ -304,6 +304,13 @@ def test_a_drawing_is_told_how_it_gets_here(name: str, tmp_path: Path) -> None:
             read(tmp_path / name)
 
 
+@pytest.mark.parametrize("name", ["page.html", "picture.SVG", "run.npz"])
+def test_what_drystone_wrote_itself_is_no_scene(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("<NaN>")
+    with pytest.raises(ds.SceneError, match=r"no scene, by its name: a scene is a \.json file"):
+        ds.Scene.load(tmp_path / name)
+
+
 @pytest.mark.parametrize("name", ["a.json", "a.obj", "a.stl", "a.ply", "a.xml", "a.urdf"])
 def test_an_empty_file_is_said_to_be_empty(name: str, tmp_path: Path) -> None:
     (tmp_path / name).touch()

@@ -60,6 +60,8 @@ def advice(path: Path) -> str | None:
     """One line for a file of another tool that was given as a scene."""
     if path.suffix.lower() in UNREAD and path.exists():
         return f"{path}: {unread(path)}"
+    if path.suffix.lower() in OTHERS and path.is_file():
+        return f"{path}: no scene, by its name: a scene is a .json file"
     kind = kind_of(path)
     if kind is None:
         return None

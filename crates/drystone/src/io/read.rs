@@ -111,7 +111,8 @@ fn syntax(file: &str, text: &str, error: &serde_json::Error) -> FileError {
     if let Some(end) = reason.find(" at line ") {
         reason.truncate(end);
     }
-    if text.contains("NaN") || text.contains("Infinity") {
+    let wrong = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
+    if wrong.contains("NaN") || wrong.contains("Infinity") {
         reason.push_str(" (JSON has no NaN or Infinity: give finite numbers)");
     }
     FileError::Syntax { file, line, column, reason }

@@ -224,6 +224,8 @@ fn text_that_is_not_json_tells_the_place() {
     let error = error_of(&text);
     assert!(matches!(error, FileError::Syntax { line: 2, .. }), "{error:?}");
     assert!(error.to_string().contains("give finite numbers"), "{error}");
+    let elsewhere = error_of("<html>\nNaN");
+    assert!(!elsewhere.to_string().contains("give finite numbers"), "{elsewhere}");
     // JSON allows it, a double does not.
     assert!(matches!(error_of(&text.replace("NaN", "1e999")), FileError::Syntax { .. }));
 }
