@@ -161,6 +161,28 @@ def test_a_number_beyond_all_bounds_is_an_error_too(case: str) -> None:
         NUMBERS[case][1](10**400)
 
 
+@pytest.mark.parametrize("kind", [np.float64, np.float32, np.int64])
+def test_arrays_are_taken_wherever_numbers_in_a_row_are(kind: type[np.generic]) -> None:
+    def row(*numbers: float) -> np.ndarray[Any, Any]:
+        return np.array(numbers, dtype=kind)
+
+    scene = ds.Scene(gravity=row(0, -10))
+    scene.add_box(row(0, -1), row(8, 2), name="ground", fixed=True)
+    scene.add_polygon([row(0, 0), row(1, 0), row(1, 1), row(0, 1)], name="block")
+    scene.add_load("block", row(0, -1), at=row(0, 1))
+    space = ds.Scene(3)
+    space.add_box(row(0, 0, 0), row(1, 1, 1), orientation=row(1, 0, 0, 0), inertia=np.eye(3))
+    world = ds.World(scene)
+    world.apply_force("block", row(1, 0))
+    world.set_velocity("block", row(0, 0, 0))
+    assert ds.simulate(scene, steps=1, velocities={"block": row(0, 0, 0)}).finished
+    assert ds.limit(scene, push={"block": row(1, 0)}, gravity=row(0, 0)).factor > 0
+    assert ds.plan(scene, clear_path=True, directions=np.eye(2, dtype=kind)).found
+    many = ds.plan_many([scene], clear_path=True, directions=np.eye(2, dtype=kind))
+    assert many[0].found
+    assert ds.check(scene.with_gravity(row(0, -1)), blocks=np.array(["block"])).stable
+
+
 @pytest.mark.parametrize("dpi", [0, 1, -160, 1e5, math.nan])
 def test_resolutions_have_bounds(dpi: float, tmp_path: Path) -> None:
     """matplotlib ends the process at one dot for each inch and less."""

@@ -6,10 +6,19 @@ Of the wrong type is a TypeError, text for a number too, and what cannot be used
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from drystone import _core
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+Floats: TypeAlias = "Sequence[float] | NDArray[Any]"
+"""Numbers in a row: a tuple, a list or an array."""
+
+FloatRows: TypeAlias = "Sequence[Floats] | NDArray[Any]"
+"""Rows of them."""
 
 WORDS = {
     1: "one number",

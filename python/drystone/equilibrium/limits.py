@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, TypeAlias
 
 from drystone import _core
 from drystone.common import later
@@ -14,7 +14,7 @@ from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
 from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
-from drystone.common.numbers import name_of, names_of, vector
+from drystone.common.numbers import Floats, name_of, names_of, vector
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-Push = Mapping[str, Sequence[float]]
+Push: TypeAlias = Mapping[str, Floats]
 """Body and the force on its centroid, N, world axes: two numbers in the plane, three in space;
 behind them, if given, the moment beside it, N m: one number, in space three."""
 
@@ -191,7 +191,7 @@ class Limit(Paged):
 def limit(
     scene: Scene,
     push: Push | None = None,
-    gravity: Sequence[float] | None = None,
+    gravity: Floats | None = None,
     blocks: Iterable[str] | None = None,
     *,
     facets: int = FACETS,
@@ -239,7 +239,7 @@ def movable(scene: Scene, names: list[str] | None) -> tuple[str, ...]:
 
 
 def core_push(
-    scene: Scene, push: Push | None, gravity: Sequence[float] | None
+    scene: Scene, push: Push | None, gravity: Floats | None
 ) -> tuple[CoreForces, tuple[float, ...] | None]:
     """A push as the core takes it; TypeError or SceneError for what is none."""
     if push is None and gravity is None:

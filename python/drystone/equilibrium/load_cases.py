@@ -12,7 +12,7 @@ import numpy as np
 from drystone import _core
 from drystone.common.arrays import floats
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
-from drystone.common.numbers import names_of
+from drystone.common.numbers import Floats, names_of
 from drystone.common.text import counted
 from drystone.equilibrium.limits import Push, core_push
 from drystone.scene import Scene
@@ -74,7 +74,7 @@ class LoadCases:
 
 def load_cases(
     scene: Scene,
-    loads: Sequence[Push | Sequence[float]],
+    loads: Sequence[Push | Floats],
     factors: ArrayLike,
     blocks: Iterable[str] | None = None,
     *,

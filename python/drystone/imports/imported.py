@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
@@ -12,7 +12,7 @@ import numpy as np
 
 from drystone._core import DrystoneError, SceneError
 from drystone.common.choices import Joints, Split, Up
-from drystone.common.numbers import names_of, number, optional_number, optional_whole
+from drystone.common.numbers import Floats, names_of, number, optional_number, optional_whole
 from drystone.common.text import counted
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
@@ -104,7 +104,7 @@ def load(
     up: Up = "z",
     friction: float | Mapping[str, float] = FRICTION,
     density: float | Mapping[str, float] | None = None,
-    gravity: Sequence[float] | None = None,
+    gravity: Floats | None = None,
     fixed: Iterable[str] = (),
     ground: bool = False,
     tolerance: float | Literal["auto"] | None = None,
@@ -311,7 +311,7 @@ def _read_xml(path: Path, collected: Collected, taking: Taking) -> str:
 def _scene(
     collected: Collected,
     friction: float,
-    gravity: Sequence[float] | None,
+    gravity: Floats | None,
     tolerance: float,
     may_lack: bool,
 ) -> Scene:
@@ -342,7 +342,7 @@ def _scene(
 def _without_overlaps(
     collected: Collected,
     friction: float,
-    gravity: Sequence[float] | None,
+    gravity: Floats | None,
     tolerance: float,
     may_lack: bool,
 ) -> Scene:

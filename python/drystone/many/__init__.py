@@ -8,11 +8,11 @@ and send back the text of an answer.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from os import PathLike
 
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid
-from drystone.common.numbers import number, optional_number, optional_whole, whole
+from drystone.common.numbers import FloatRows, number, optional_number, optional_whole, whole
 from drystone.many import engines
 from drystone.many.answers import ManyPlans, ScenePlan
 from drystone.many.engine import EngineError
@@ -44,7 +44,7 @@ def plan_many(
     shortcuts: bool = True,
     hold: int = 0,
     clear_path: bool = False,
-    directions: Sequence[Sequence[float]] | None = None,
+    directions: FloatRows | None = None,
     margin: float = 0.0,
     order: OrderOfPlan = "any",
     moves: int = 1,
@@ -105,7 +105,7 @@ def plan_many(
         shortcuts,
         whole(hold, "hold"),
         clear_path,
-        tuple(tuple(map(float, way)) for way in directions or ()),
+        tuple(tuple(map(float, way)) for way in (() if directions is None else directions)),
         number(margin, "margin"),
         order,
         whole(moves, "moves"),

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.numbers import name_of, number, vector, whole, word
+from drystone.common.numbers import Floats, name_of, number, vector, whole, word
 from drystone.motion.modes import COULOMB_TOLERANCE, MOST_STEPS, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.scene import Scene
@@ -22,7 +22,7 @@ def simulate(
     restitution: float = 0.0,
     formulation: Formulation = "velocity",
     coulomb_tolerance: float = COULOMB_TOLERANCE,
-    velocities: Mapping[str, Sequence[float]] | None = None,
+    velocities: Mapping[str, Floats] | None = None,
     facets: int = FACETS,
     cone: Pyramid = INSCRIBED,
     forces: bool = False,
@@ -119,13 +119,13 @@ def core_world(
     )
 
 
-def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:
+def velocity_of(world: _core.World, name: str, value: Floats) -> tuple[float, ...]:
     """The velocity of a body as floats: three in the plane, six in space."""
     units = "m/s, m/s, rad/s" if world.dimension == 2 else "m/s three times, rad/s three times"
     return numbers(value, 3 * world.dimension - 3, f'block "{name}": velocity', units)
 
 
-def numbers(value: float | Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
+def numbers(value: float | Floats, count: int, what: str, units: str) -> tuple[float, ...]:
     """`value` as so many floats, one may stand alone; errors name `what` and its units."""
     given = (value,) if isinstance(value, int | float) else value
     spelled = {1: "one number", 2: "two numbers", 3: "three numbers", 6: "six numbers"}[count]

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.drawn import Drawn
-from drystone.common.numbers import name_of, whole
+from drystone.common.numbers import Floats, name_of, whole
 from drystone.common.text import counted
 from drystone.common.units import quantity
 from drystone.equilibrium.contact_force import ContactForce
@@ -170,7 +170,7 @@ class World(Adding, Drawn):
         """2 in the plane, 3 in space."""
         return self._core.dimension
 
-    def set_velocity(self, name: str, velocity: Sequence[float]) -> None:
+    def set_velocity(self, name: str, velocity: Floats) -> None:
         """Set a body's velocity: (m/s, m/s, rad/s), in space three and three numbers."""
         self._core.set_velocity(name_of(name), velocity_of(self._core, name, velocity))
 

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Literal, TypeAlias, get_args
 
 from drystone import _core
 from drystone.common.cones import CONES, FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.numbers import number, optional_number, optional_whole, vector, whole
+from drystone.common.numbers import (
+    FloatRows,
+    number,
+    optional_number,
+    optional_whole,
+    vector,
+    whole,
+)
 from drystone.planning.answer import Plan
 from drystone.planning.robust import robust
 from drystone.scene import Scene
@@ -38,7 +45,7 @@ def plan(
     threads: int | None = None,
     hold: int = 0,
     clear_path: bool = False,
-    directions: Sequence[Sequence[float]] | None = None,
+    directions: FloatRows | None = None,
     *,
     margin: float = 0.0,
     order: OrderOfPlan = "any",
@@ -176,7 +183,7 @@ def plan(
 def _check_ways(
     scene: Scene,
     clear_path: bool,
-    directions: Sequence[Sequence[float]] | None,
+    directions: FloatRows | None,
     moves: int,
     together: int,
     obstacles: Scene | None,
@@ -203,9 +210,7 @@ def _check_ways(
         )
 
 
-def _ways(
-    scene: Scene, directions: Sequence[Sequence[float]] | None
-) -> list[tuple[float, float, float]]:
+def _ways(scene: Scene, directions: FloatRows | None) -> list[tuple[float, float, float]]:
     """Vectors of three numbers; in the plane z is zero."""
     try:
         ways = [] if directions is None else list(directions)

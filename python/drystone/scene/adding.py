@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from os import PathLike
-from typing import TYPE_CHECKING, TypedDict, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypedDict, TypeVar
 from warnings import warn
 
 from drystone import _core
 from drystone.common.numbers import (
+    Floats,
     flag,
     number,
     optional_name,
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 
-Point = Sequence[float]
+Point: TypeAlias = Floats
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
 an array."""
 
@@ -61,7 +62,7 @@ class Adding:
         friction: float | None = None,
         fixed: bool = False,
         *,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -147,7 +148,7 @@ class Adding:
         fixed: bool = False,
         *,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -181,7 +182,7 @@ class Adding:
         fixed: bool = False,
         *,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -218,7 +219,7 @@ class Adding:
         fixed: bool = False,
         *,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -251,7 +252,7 @@ class Adding:
         self,
         mesh: str | PathLike[str] | Trimesh,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         scale: float | tuple[float, float, float] | None = None,
         name: str | None = None,
         density: float = 1.0,
@@ -327,7 +328,7 @@ class _Options(TypedDict):
     friction: float | None
     fixed: bool
     position: Point
-    orientation: Sequence[float]
+    orientation: Floats
     mass: float | None
     center_of_mass: Point | None
     inertia: Inertia | None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ from drystone.common import later
 from drystone.common.drawn import Paged
 from drystone.common.files import write_whole
 from drystone.common.numbers import (
+    Floats,
     name_of,
     number,
     optional_name,
@@ -104,7 +105,7 @@ class Scene(Adding, Paged):
         body: str,
         force: Point | None = None,
         at: Point | None = None,
-        moment: float | Sequence[float] | None = None,
+        moment: float | Floats | None = None,
         name: str | None = None,
     ) -> str:
         """Put a permanent load on a body and return the load's name.
@@ -165,7 +166,7 @@ class Scene(Adding, Paged):
         self,
         body: str,
         displacement: Point | None = None,
-        rotation: float | Sequence[float] | None = None,
+        rotation: float | Floats | None = None,
         at: Point | None = None,
     ) -> None:
         """Prescribe a small displacement of a support, which `check` answers.
