@@ -26,7 +26,7 @@ from drystone.scene.body import Body, Contact, Solid, snapshot
 from drystone.scene.loads import Load, listed, turning
 from drystone.scene.near_miss import NearMiss
 from drystone.scene.overlaps import Overlap
-from drystone.scene.settlements import Settlement
+from drystone.scene.settlements import Settlement, require_small
 from drystone.scene.settlements import listed as listed_settlements
 
 if TYPE_CHECKING:
@@ -182,7 +182,8 @@ class Scene(Adding, Paged):
         equilibrium is that of the shape before, so `plan`, `limit`, `margin` and `Structure` take
         no notice. `simulate` and `World` refuse a scene with settlements.
 
-        Raises SceneError for an unknown body, one that is not fixed, or wrong numbers.
+        Raises SceneError for an unknown body, one that is not fixed, or wrong numbers, and warns of
+        a displacement of more than a tenth of the scene's size.
 
         >>> import drystone as ds
         >>> scene = ds.Scene(friction=0.5)
@@ -195,13 +196,15 @@ class Scene(Adding, Paged):
         [('beam', (-1.5, 0.0)), ('beam', (2.0, 0.0))]
         """
         n = self.dimension
+        moved = (0.0,) * n if displacement is None else vector(displacement, n, "displacement")
         _core.add_settlement(
             self._core,
             name_of(body),
-            [0.0] * n if displacement is None else vector(displacement, n, "displacement"),
+            moved,
             turning(rotation, n, "rotation"),
             None if at is None else vector(at, n, "at"),
         )
+        require_small(moved, self.bodies)
 
     def without_settlements(self) -> Scene:
         """The same scene with all supports where they are."""
