@@ -238,6 +238,14 @@ def test_the_command_is_installed() -> None:
     assert (ran.returncode, ran.stdout) == (2, "")
 
 
+def test_a_warning_is_a_line(tmp_path: Path) -> None:
+    command = [Path(sys.executable).with_name("drystone"), "check", "column:3"]
+    ran = subprocess.run(
+        [*command, "--settle", "ground:0,-10"], capture_output=True, text=True, check=True
+    )
+    assert re.fullmatch("drystone: the displacement is 10 m.*\n", ran.stderr)
+
+
 HEAVY = ("numpy", "scipy", "matplotlib", "highspy", "rich.progress")
 
 
