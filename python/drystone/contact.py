@@ -36,6 +36,7 @@ from drystone.common.compressed import (
     of_diagonal_blocks,
     times,
 )
+from drystone.common.numbers import number, optional_number, whole
 from drystone.common.text import counted
 
 if TYPE_CHECKING:
@@ -134,8 +135,10 @@ def solve(
     if np.any(shares):
         offsets = _rebounding(times(jacobian, free)[::d], offsets, shares)
     begin = start.impulses if isinstance(start, Solution) else start
+    tolerance = optional_number(tolerance, "tolerance", ContactError)
     if tolerance is not None and not tolerance >= 0:
         raise ContactError(f"tolerance is {tolerance}: it must be zero or more, m/s")
+    scale = number(scale, "scale", error=ContactError)
     if not 0 <= scale < np.inf:
         raise ContactError(f"scale is {scale}: it must be zero or more, m/s")
     core = _core.contact_solve(
@@ -154,7 +157,7 @@ def solve(
         core.velocities,
         core.error,
         core.tolerance,
-        core.status,
+        core.status if np.isfinite(core.error) else "limit",  # overflow proves nothing
         core.islands,
         core.sweeps,
         core.newton_steps,
@@ -164,7 +167,7 @@ def solve(
 def _dimension(rows: int, laws: dict[str, NDArray[np.float64]], given: int | None) -> int:
     """Components of a contact, from what says how many contacts there are."""
     if given is not None:
-        if given not in (2, 3):
+        if whole(given, "dimension") not in (2, 3):
             raise ContactError(f"dimension is {given}: it must be 2 or 3")
         candidates = [given]
     else:

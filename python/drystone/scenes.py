@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from drystone import _core
+from drystone.common.numbers import number
 from drystone.scene import Scene
 
 __all__ = [
@@ -190,6 +191,8 @@ def drop84(seed: int = 1, friction: float = 0.5) -> Scene:
 
 
 def _built(name: str, **parameters: Any) -> Scene:
+    for key, value in parameters.items():
+        number(value, f"{name}: {key}")
     # NumPy's numbers become Python's own: the core takes what JSON knows.
     plain = {key: getattr(value, "item", lambda v=value: v)() for key, value in parameters.items()}
     return Scene._of(_core.Scene.built_in(name, plain))

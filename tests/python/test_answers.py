@@ -5,7 +5,9 @@ from __future__ import annotations
 import copy
 import io
 import json
+import math
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -166,3 +168,14 @@ def test_tables_do_not_show_what_rounding_left() -> None:
     scene.add_box((0, 1.6), (0.8, 0.8), name="weight")
     lines = ds.check(scene).table().splitlines()[2:]
     assert [line.split()[-1] for line in lines] == ["0"] * 4
+
+
+def test_what_rounding_left_is_printed_as_nothing() -> None:
+    arch = ds.scenes.arch(8)
+    assert any(0 < abs(x) < 1e-12 for force in ds.check(arch).forces for x in force.point)
+    wall = ds.scenes.brick_wall(3, 3)
+    margin = ds.margin(wall)
+    assert any(0 < abs(x) < 1e-12 for x in margin.direction)
+    for text in (ds.check(arch).table(), repr(arch.contacts), str(margin)):
+        assert not re.search(r"e-1\d|-0[,)]", text), text
+    assert f"({math.degrees(margin.tilt or 0):.3g} degrees)" in str(margin)

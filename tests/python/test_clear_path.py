@@ -146,5 +146,5 @@ def test_in_space_a_plank_is_held_and_blocks_leave_upward() -> None:
     plan = ds.plan(scene, hold=1, clear_path=True, directions=[(0, 0, 2)])
     assert (plan.order, plan.holds) == (("weight", "plank"), ((), ("plank",)))
     assert plan.directions == ((0.0, 0.0, 1.0),) * 2
-    with pytest.raises(ValueError, match="3 numbers"):
+    with pytest.raises(ValueError, match="three numbers"):
         ds.plan(scene, clear_path=True, directions=[(0, 1)])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -89,6 +90,7 @@ def test_plan_without_an_order(cli: Cli, tmp_path: Path) -> None:
     assert ran.status == 1
     assert "No stable order exists" in ran.out
     assert "plank" in ran.out
+    assert "may be an order: --hold 1" in ran.out
 
 
 def test_plan_within_limits(cli: Cli, tmp_path: Path) -> None:
@@ -183,6 +185,47 @@ def test_help(cli: Cli, command: list[str]) -> None:
     assert "Usage" in ran.out
 
 
+@pytest.mark.parametrize(
+    ("command", "flags"),
+    [
+        ("", ["--version"]),
+        ("check", ["--json", "--strong"]),
+        ("plan", ["--json", "--strong", "--clear-path", "--no-shortcuts"]),
+        ("scene", ["--list"]),
+        ("scene arch", []),
+        ("import", ["--ground", "--pieces", "--hull"]),
+        ("bench methods", ["--json"]),
+    ],
+)
+def test_help_shows_flags_without_a_value(cli: Cli, command: str, flags: list[str]) -> None:
+    lines = cli(*command.split(), "--help").out.splitlines()
+    for flag in [*flags, "-h"]:
+        line = next(x for x in lines if f" {flag} " in x)
+        after = line.partition(f" {flag} ")[2]
+        assert re.match(r"\s+[A-Z]", after), line  # the first word of what it does
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "check column:3",
+        "check arch:thickness=0.1",
+        "limit column:3 --push 1:1,0",
+        "margin column:3",
+        "plan column:3",
+    ],
+)
+def test_answers_are_written_as_they_are_printed(cli: Cli, command: str, tmp_path: Path) -> None:
+    written = cli(*command.split(), "-o", tmp_path / "answer.json")
+    assert "answer.json" in written.out
+    printed = cli(*command.split(), "--json")
+    assert written.status == printed.status
+    told, here = json.loads((tmp_path / "answer.json").read_text()), json.loads(printed.out)
+    assert told.keys() == here.keys()
+    timed = ("seconds", "test_seconds", "records", "whole")
+    assert all(told[key] == here[key] for key in told if key not in timed)
+
+
 def test_version(cli: Cli) -> None:
     assert cli("--version").out.strip() == ds.__version__
 
@@ -193,6 +236,14 @@ def test_the_command_is_installed() -> None:
     assert (ran.returncode, ran.stderr) == (0, "")
     ran = subprocess.run([command, "check", "nowhere"], capture_output=True, text=True)
     assert (ran.returncode, ran.stdout) == (2, "")
+
+
+def test_a_warning_is_a_line(tmp_path: Path) -> None:
+    command = [Path(sys.executable).with_name("drystone"), "check", "column:3"]
+    ran = subprocess.run(
+        [*command, "--settle", "ground:0,-10"], capture_output=True, text=True, check=True
+    )
+    assert re.fullmatch("drystone: the displacement is 10 m.*\n", ran.stderr)
 
 
 HEAVY = ("numpy", "scipy", "matplotlib", "highspy", "rich.progress")

@@ -17,6 +17,8 @@ from typing import Any, get_args
 
 import numpy as np
 import pytest
+import trimesh
+from matplotlib.figure import Figure
 
 import drystone as ds
 from conftest import ROOT
@@ -25,6 +27,7 @@ from drystone.common.cones import core_cones
 from drystone.meshes import objects
 
 SCENE = ds.scenes.column(4)
+CUBE = trimesh.creation.box()
 
 WRONG_TYPES: dict[str, tuple[Callable[[], object], str]] = {
     "a name for a scene": (lambda: ds.check("wall.json"), "Scene.load reads a file"),  # type: ignore[arg-type]
@@ -52,11 +55,19 @@ WRONG_TYPES: dict[str, tuple[Callable[[], object], str]] = {
     "no pieces": (lambda: ds.Scene(3).add_solid(3), "list of points"),  # type: ignore[arg-type]
     "text for a force": (lambda: SCENE.add_load("1", "ab"), "two numbers"),
     "three for a moment": (lambda: SCENE.add_load("1", moment=(1, 2, 3)), "number"),
+    "a number for a push": (lambda: ds.limit(SCENE, {"1": 3}), "2 numbers of force"),  # type: ignore[dict-item]
     "a list for a push": (lambda: ds.limit(SCENE, [1, 2]), "dict"),  # type: ignore[arg-type]
     "text for steps": (lambda: ds.simulate(SCENE, steps="9"), "steps"),  # type: ignore[arg-type]
     "half a step": (lambda: ds.simulate(SCENE, steps=1.5), "steps"),  # type: ignore[arg-type]
     "nothing for dt": (lambda: ds.simulate(SCENE, dt=None), "dt"),  # type: ignore[arg-type]
     "text for hands": (lambda: ds.plan(SCENE, hold="1"), "hold"),  # type: ignore[arg-type]
+    "one string of fixed bodies": (lambda: ds.imports.load("a.stl", fixed="ab"), "list of names"),
+    "no mesh": (lambda: ds.Scene(3).add_mesh(None), "trimesh"),  # type: ignore[arg-type]
+    "no axes": (lambda: SCENE.draw(ax="a.svg"), "axes of matplotlib"),  # type: ignore[arg-type]
+    "a figure for axes": (lambda: SCENE.draw(ax=Figure()), "axes of matplotlib"),  # type: ignore[arg-type]
+    "axes for a name": (lambda: SCENE.draw(Figure().subplots()), "draw\\(ax=axes\\)"),  # type: ignore[arg-type]
+    "no progress": (lambda: ds.plan(SCENE, progress=3), "a function"),  # type: ignore[arg-type]
+    "a number for a method": (lambda: ds.check(SCENE, method=3), "text"),  # type: ignore[arg-type]
     "text for seconds": (lambda: ds.plan(SCENE, time_limit=[]), "time_limit"),  # type: ignore[arg-type]
 }
 
@@ -66,6 +77,117 @@ def test_a_wrong_type_is_a_type_error_that_says_what_is_wanted(case: str) -> Non
     provoke, said = WRONG_TYPES[case]
     with pytest.raises(TypeError, match=said):
         provoke()
+
+
+NUMBERS: dict[str, tuple[str, Callable[[Any], object]]] = {
+    "dimension": ("dimension", lambda x: ds.Scene(x)),
+    "gravity": ("gravity", lambda x: ds.Scene(gravity=(x, -9.81))),
+    "friction": ("friction", lambda x: ds.Scene(friction=x)),
+    "contact tolerance": ("contact_tolerance", lambda x: ds.Scene(contact_tolerance=x)),
+    "center": ("center", lambda x: ds.Scene().add_box((x, 0), (1, 1))),
+    "size": ("size", lambda x: ds.Scene().add_box((0, 0), (x, 1))),
+    "angle": ("angle", lambda x: ds.Scene().add_box((0, 0), (1, 1), x)),
+    "density": ("density", lambda x: ds.Scene().add_box((0, 0), (1, 1), density=x)),
+    "a box's friction": ("friction", lambda x: ds.Scene().add_box((0, 0), (1, 1), friction=x)),
+    "mass": ("mass", lambda x: ds.Scene().add_box((0, 0), (1, 1), mass=x)),
+    "inertia": ("inertia", lambda x: ds.Scene().add_box((0, 0), (1, 1), inertia=x)),
+    "whether fixed": ("fixed", lambda x: ds.Scene().add_box((0, 0), (1, 1), fixed=x)),
+    "a vertex": ("a vertex", lambda x: ds.Scene().add_polygon([(0, 0), (1, 0), (x, 1)])),
+    "a corner": ("a vertex", lambda x: ds.Scene(3).add_polyhedron([(x, 0, 0)] * 4)),
+    "a cuboid's density": (
+        "density",
+        lambda x: ds.Scene(3).add_box((0, 0, 0), (1, 1, 1), density=x),
+    ),
+    "an orientation": (
+        "orientation",
+        lambda x: ds.Scene(3).add_box((0, 0, 0), (1, 1, 1), orientation=(x, 0, 0, 0)),
+    ),
+    "a surface": ("vertices", lambda x: ds.Scene(3).add_surface([(x, 0, 0)], [(0, 0, 0)])),
+    "its triangles": ("triangles", lambda x: ds.Scene(3).add_surface([(0, 0, 0)], [(x, 0, 0)])),
+    "a mesh's density": ("density", lambda x: ds.Scene(3).add_mesh(CUBE, density=x)),
+    "a mesh's scale": ("scale", lambda x: ds.Scene(3).add_mesh(CUBE, scale=x)),
+    "simplify": ("simplify", lambda x: ds.Scene(3).add_mesh(CUBE, simplify=x)),
+    "a mesh's tolerance": ("tolerance", lambda x: ds.Scene(3).add_mesh(CUBE, tolerance=x)),
+    "pieces": ("max_pieces", lambda x: ds.Scene(3).add_mesh(CUBE, max_pieces=x)),
+    "a load": ("force", lambda x: SCENE.add_load("1", (x, 0))),
+    "a moment": ("moment", lambda x: SCENE.add_load("1", moment=x)),
+    "pressure": ("pressure", lambda x: SCENE.add_pressure("1", (1, 0), x)),
+    "a pair's friction": ("friction", lambda x: SCENE.set_friction("1", "2", x)),
+    "depth": ("depth", lambda x: SCENE.extruded(x)),
+    "facets": ("facets", lambda x: ds.check(SCENE, facets=x)),
+    "a budget": ("strong_budget", lambda x: ds.check(SCENE, strong=True, strong_budget=x)),
+    "rows": ("rows", lambda x: ds.check(SCENE).table(x)),
+    "a push": ("the push on", lambda x: ds.limit(SCENE, {"1": (x, 0)})),
+    "factors": ("factors", lambda x: ds.load_cases(SCENE, [(1, 0)], [(x,)])),
+    "a margin's tolerance": ("tolerance", lambda x: ds.margin(SCENE, tolerance=x)),
+    "hold": ("hold", lambda x: ds.plan(SCENE, hold=x)),
+    "a time limit": ("time_limit", lambda x: ds.plan(SCENE, time_limit=x)),
+    "a node limit": ("node_limit", lambda x: ds.plan(SCENE, node_limit=x)),
+    "threads": ("threads", lambda x: ds.plan(SCENE, threads=x)),
+    "a plan's margin": ("margin", lambda x: ds.plan(SCENE, margin=x)),
+    "directions": (
+        "directions",
+        lambda x: ds.plan(SCENE, clear_path=True, directions=[(x, 1)]),
+    ),
+    "workers": ("workers", lambda x: ds.plan_many([SCENE], workers=x)),
+    "dt": ("dt", lambda x: ds.simulate(SCENE, x, 1)),
+    "a world's dt": ("dt", lambda x: ds.World(SCENE, x)),
+    "restitution": ("restitution", lambda x: ds.World(SCENE, restitution=x)),
+    "Coulomb's law": ("coulomb_tolerance", lambda x: ds.World(SCENE, coulomb_tolerance=x)),
+    "a velocity": ("velocity", lambda x: ds.World(SCENE).set_velocity("1", (x, 0, 0))),
+    "an impulse": ("impulse", lambda x: ds.World(SCENE).apply_impulse("1", (x, 0))),
+    "steps": ("steps", lambda x: ds.World(SCENE).run(x)),
+    "built-in scenes": ("column: n", lambda x: ds.scenes.column(x)),
+    "an import's scale": ("scale", lambda x: ds.imports.load("cube.stl", scale=x)),
+    "an import's density": ("density", lambda x: ds.imports.load("cube.stl", density=x)),
+    "mu": ("mu", lambda x: ds.contact.solve(np.eye(2), np.eye(2), x, (0, 0))),
+    "scale": ("scale", lambda x: ds.contact.solve(np.eye(2), np.eye(2), 1, (0, 0), scale=x)),
+    "q": ("q", lambda x: ds.lcp.solve(np.eye(1), [x])),
+    "dpi": ("dpi", lambda x: SCENE.draw("a.png", dpi=x)),
+}
+
+
+@pytest.mark.parametrize("case", NUMBERS)
+@pytest.mark.parametrize("text", ["x", "3", b"3"])
+def test_text_for_a_number_is_a_type_error_that_names_it(case: str, text: object) -> None:
+    what, given = NUMBERS[case]
+    with pytest.raises(TypeError, match=rf"{what}\b.* must "):
+        given(text)
+
+
+@pytest.mark.parametrize("case", NUMBERS)
+def test_a_number_beyond_all_bounds_is_an_error_too(case: str) -> None:
+    with pytest.raises((ds.DrystoneError, ValueError, TypeError)):
+        NUMBERS[case][1](10**400)
+
+
+@pytest.mark.parametrize("kind", [np.float64, np.float32, np.int64])
+def test_arrays_are_taken_wherever_numbers_in_a_row_are(kind: type[np.generic]) -> None:
+    def row(*numbers: float) -> np.ndarray[Any, Any]:
+        return np.array(numbers, dtype=kind)
+
+    scene = ds.Scene(gravity=row(0, -10))
+    scene.add_box(row(0, -1), row(8, 2), name="ground", fixed=True)
+    scene.add_polygon([row(0, 0), row(1, 0), row(1, 1), row(0, 1)], name="block")
+    scene.add_load("block", row(0, -1), at=row(0, 1))
+    space = ds.Scene(3)
+    space.add_box(row(0, 0, 0), row(1, 1, 1), orientation=row(1, 0, 0, 0), inertia=np.eye(3))
+    world = ds.World(scene)
+    world.apply_force("block", row(1, 0))
+    world.set_velocity("block", row(0, 0, 0))
+    assert ds.simulate(scene, steps=1, velocities={"block": row(0, 0, 0)}).finished
+    assert ds.limit(scene, push={"block": row(1, 0)}, gravity=row(0, 0)).factor > 0
+    assert ds.plan(scene, clear_path=True, directions=np.eye(2, dtype=kind)).found
+    many = ds.plan_many([scene], clear_path=True, directions=np.eye(2, dtype=kind))
+    assert many[0].found
+    assert ds.check(scene.with_gravity(row(0, -1)), blocks=np.array(["block"])).stable
+
+
+@pytest.mark.parametrize("dpi", [0, 1, -160, 1e5, math.nan])
+def test_resolutions_have_bounds(dpi: float, tmp_path: Path) -> None:
+    """matplotlib ends the process at one dot for each inch and less."""
+    with pytest.raises(ValueError, match="from 10 to 2400"):
+        SCENE.draw(tmp_path / "a.png", dpi=dpi)
 
 
 MISSING: dict[str, Callable[[str], object]] = {

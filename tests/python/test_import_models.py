@@ -287,8 +287,39 @@ def test_files_of_other_tools_are_told(others: dict[str, Path], cli: Cli) -> Non
         assert "drystone import" in " ".join(ran.err.split())
 
 
+def test_a_file_that_is_not_there_is_said_to_be_missing(tmp_path: Path, cli: Cli) -> None:
+    for name in ("x.stl", "m.xml", "wall.dxf"):
+        with pytest.raises(FileNotFoundError):
+            ds.Scene.load(tmp_path / name)
+        for command in ("check", "import"):
+            assert "No such file" in cli(command, tmp_path / name).err
+    assert "name is empty" in cli("import", "").err
+
+
+@pytest.mark.parametrize("name", ["wall.dxf", "Wall.DWG"])
+def test_a_drawing_is_told_how_it_gets_here(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("0\nSECTION\n")
+    for read in (ds.Scene.load, ds.imports.load):
+        with pytest.raises(ds.DrystoneError, match=r"is not read: .*closed meshes.*add_polygon"):
+            read(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["page.html", "picture.SVG", "run.npz"])
+def test_what_drystone_wrote_itself_is_no_scene(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text("<NaN>")
+    with pytest.raises(ds.SceneError, match=r"no scene, by its name: a scene is a \.json file"):
+        ds.Scene.load(tmp_path / name)
+
+
+@pytest.mark.parametrize("name", ["a.json", "a.obj", "a.stl", "a.ply", "a.xml", "a.urdf"])
+def test_an_empty_file_is_said_to_be_empty(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).touch()
+    with pytest.raises(ds.DrystoneError, match="is empty"):
+        ds.imports.load(tmp_path / name)
+
+
 def test_names_that_lie_are_refused(block: ds.Scene, tmp_path: Path) -> None:
-    for name in ("scene.stl", "scene.XML", "scene.svg"):
+    for name in ("scene.stl", "scene.XML", "scene.svg", "scene.bmp", "scene.dxf"):
         with pytest.raises(ds.SceneError, match=r"let its name end in \.json"):
             block.save(tmp_path / name)
         assert not (tmp_path / name).exists()

@@ -210,6 +210,7 @@ def test_options(assembly: Path) -> None:
     ("options", "says"),
     [
         ({"fixed": ["7"]}, "no body is called '7': there are 0, 1"),
+        ({"fixed": ["GROUND"], "ground": True}, "did you mean 'ground'"),
         ({"up": "x"}, "up must be"),
         ({"scale": 0.0}, "scale must be"),
     ],

@@ -119,7 +119,6 @@ BAD = {
     "q too long": ([[1.0]], [1.0, 2.0], "q"),
     "q a matrix": ([[1.0]], [[1.0]], "vector"),
     "complex M": ([[1j]], [1.0], "real"),
-    "words": ([["a"]], [1.0], "real"),
     "M of None": (None, [1.0], "M"),
 }
 

@@ -295,7 +295,6 @@ def test_units_and_places_change_nothing() -> None:
         ({"push": {"ground": (1, 0)}}, "fixed"),
         ({"push": {"block": (1,)}}, "2 numbers of force"),
         ({"push": {"block": (1, 0, 0, 0)}}, "2 numbers of force"),
-        ({"push": {"block": 3}}, "2 numbers of force"),
         ({"push": {"block": (math.nan, 0)}}, "finite"),
         ({"push": {"block": (1e99, 0)}}, "must be from"),
         ({"gravity": (1, 0, 0)}, "two numbers"),
@@ -341,3 +340,31 @@ def test_pictures_and_the_command_line(cli: Cli, tmp_path: Path) -> None:
     assert cli("limit", "column:3", "--push", "7:1,0").status == 2
     assert cli("limit", "column:3").status == 2
     assert cli("limit", "column:3", "--gravity", "1,0", "--blocks", "2").status == 1
+
+
+@pytest.mark.parametrize("mu", [0.3, 0.5, 0.7])
+@pytest.mark.parametrize(("rows", "columns"), [(3, 3), (3, 4), (5, 5), (6, 6)])
+def test_a_push_askew_to_a_wall_of_bricks_has_an_answer(rows: int, columns: int, mu: float) -> None:
+    """Many contacts are at the border of their round cones at once there. The answer is proved on
+    both sides, and between those of pyramids."""
+    size = (0.2, 0.1, 0.1)
+    scene = ds.Scene(3, friction=mu)
+    scene.add_box((0, 0, -0.5), (9, 9, 1), name="ground", fixed=True)
+    for row in range(rows):
+        for column in range(columns - row % 2):
+            middle = (size[0] * (column + 0.5 + 0.5 * (row % 2)), 0, size[2] * (row + 0.5))
+            scene.add_box(middle, size, density=2400)
+    for angle in (0.1, 0.26, 4.0, 5.74):
+        gravity = (G * math.cos(angle), G * math.sin(angle), 0.0)
+        found = ds.limit(scene, gravity=gravity)
+        assert found.status == "solved"
+        within, around = (
+            ds.limit(scene, gravity=gravity, cone=cone, facets=32).bounds
+            for cone in ("inscribed", "circumscribed")
+        )
+        assert around[0] - 1e-6 < found.bounds[0] < within[0] + 1e-6
+        assert within[1] - 1e-6 < found.bounds[1] < around[1] + 1e-6
+        for end in (found.lower, found.upper):
+            assert abs(end.bound - end.factor) <= 1e-8
+            assert end.imbalance <= 1e-7
+            assert end.closing <= 1e-9

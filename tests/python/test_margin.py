@@ -196,3 +196,31 @@ def test_no_density_holds_what_falls_anyway() -> None:
     assert ds.margin(scene).density("block") is None
     with pytest.raises(ds.SceneError):
         ds.margin(scene).density("blok")
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "mu"), [(3, 3, 0.7), (4, 4, 0.5), (5, 5, 0.7), (6, 6, 0.3), (8, 8, 0.7)]
+)
+@pytest.mark.parametrize("cone", ["round", "inscribed", "circumscribed"])
+def test_walls_of_bricks_topple_across_their_thickness(
+    rows: int, columns: int, mu: float, cone: Any
+) -> None:
+    """The wall as a whole about its front edge: half its thickness over the height of its middle.
+
+    Bricks that lie on two halves and touch side by side bear in many ways, and pushes askew to
+    the wall are where the interior-point method has the fewest digits.
+    """
+    size = (0.2, 0.1, 0.1)
+    scene = ds.Scene(3, friction=mu)
+    scene.add_box((0, 0, -0.5), (9, 9, 1), name="ground", fixed=True)
+    heights = []
+    for row in range(rows):
+        for column in range(columns - row % 2):
+            middle = (size[0] * (column + 0.5 + 0.5 * (row % 2)), 0, size[2] * (row + 0.5))
+            scene.add_box(middle, size)
+            heights.append(middle[2])
+    m = ds.margin(scene, cone=cone, facets=16)
+    assert m.status == "solved"
+    assert m.acceleration == pytest.approx(0.05 / np.mean(heights), abs=1e-5)
+    assert abs(m.direction[1]) == pytest.approx(1.0)
+    assert len(m.mechanism) == len(heights)

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from scipy.spatial.transform import Rotation
 
 import drystone as ds
@@ -123,6 +124,13 @@ def test_a_given_tolerance() -> None:
     except MeshError:
         return
     assert len(exact.pieces) > 3
+
+
+@pytest.mark.parametrize("number", [float, np.float64, np.float32])
+def test_a_tolerance_may_be_any_kind_of_number(number: Any, tmp_path: Path) -> None:
+    trimesh.creation.box().export(tmp_path / "cube.stl")
+    imported = ds.imports.load(tmp_path / "cube.stl", tolerance=number(0.25))
+    assert imported.scene.contact_tolerance == 0.25
 
 
 def test_round_numbers_are_not_rounded_ones() -> None:

@@ -75,7 +75,7 @@ def test_a_png_has_more_than_one_colour(tmp_path: Path) -> None:
 
 
 def test_another_kind_of_file_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match=r"\.svg, \.pdf or \.png"):
+    with pytest.raises(ValueError, match=r"\.svg, \.pdf, \.png or \.html"):
         ds.scenes.column(3).draw(tmp_path / "column.gif")
     assert not list(tmp_path.iterdir())
 
@@ -190,3 +190,40 @@ def test_round_numbers() -> None:
     assert [round_number(value) for value in (1, 1.9, 2, 4.99, 5, 99, 0.03)] == pytest.approx(
         [1, 1, 2, 2, 5, 50, 0.02]
     )
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_where_blocks_are_going_is_within_the_picture(space: bool) -> None:
+    """A tall block that tips over rises above where it stood."""
+    scene = ds.Scene(friction=0.5)
+    scene.add_box((0, -0.5), (4, 1), name="ground", fixed=True)
+    scene.add_box((0, 1), (0.6, 2), name="block")
+    scene = scene.extruded(0.5) if space else scene
+    push = {"block": (1, 0, 0) if space else (1, 0)}
+    (axes,) = pictures.limit_figure(ds.limit(scene, push=push)).axes
+    dashed = [
+        path.vertices
+        for collection in axes.collections
+        if isinstance(collection, PolyCollection) and collection.get_facecolor().size == 0
+        for path in collection.get_paths()
+    ]
+    assert dashed
+    low, high = np.min(np.concatenate(dashed), axis=0), np.max(np.concatenate(dashed), axis=0)
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    assert left < low[0] < high[0] < right
+    assert bottom < low[1] < high[1] < top
+
+
+@pytest.mark.parametrize("space", [False, True])
+def test_the_picture_of_a_run_is_of_its_end(space: bool) -> None:
+    """A block has fallen from ten times its height: the sky it fell through is not shown; in the
+    frames of a film it is."""
+    scene = ds.Scene(friction=0.5)
+    scene.add_box((0, -0.5), (2, 1), name="ground", fixed=True)
+    scene.add_box((0, 10), (1, 1), name="block")
+    run = ds.simulate(scene.extruded(1.0) if space else scene, steps=480)
+    assert not run.moving
+    (axes,) = pictures.figure_of(run).axes
+    assert np.ptp(axes.get_ylim()) < 4
+    (axes,) = pictures.frame_figure(run.view().recording, run.steps).axes
+    assert np.ptp(axes.get_ylim()) > 8

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 
 import numpy as np
@@ -102,6 +103,20 @@ def test_no_order_is_an_answer_that_shows_how_far_one_gets() -> None:
     assert plan.reached == ("pier",)
     assert plan.falls_next == ("plank",)
     assert "No stable order exists" in str(plan)
+
+
+def test_where_no_order_exists_a_hold_is_named_that_may_help() -> None:
+    scene = orderless(0)
+    plan = ds.plan(scene)
+    assert (plan.hold, plan.next_hold, plan.to_dict()["hold"]) == (0, 1, 0)
+    assert str(plan).endswith("\nIf blocks may be held there may be an order: hold=1.")
+    held = ds.plan(scene, hold=1)
+    assert (held.found, held.hold, held.next_hold) == (True, 1, None)
+    assert ds.plan(scene, strong=True).next_hold is None
+    assert ds.plan(scene, margin=0.01).next_hold is None
+    counted = ds.plan(scene, hold=np.int64(1), time_limit=np.inf)
+    assert json.loads(json.dumps(counted.to_dict()))["hold"] == 1
+    assert ds.plan(scene, node_limit=0).next_hold is None, "it may have an order"
 
 
 def test_an_assembly_that_falls_has_no_order(leaning: ds.Scene) -> None:

@@ -104,8 +104,11 @@ BAD = {
         ["x", "convex"],
     ),
     "no area": (lambda s: s.add_polygon([(0, 2), (1, 2), (2, 2)], name="x"), ["x", "area"]),
+    "bow tie": (
+        lambda s: s.add_polygon([(0, 2), (1, 3), (1, 2), (0, 3)], name="x"),
+        ["x", "in order round the block"],
+    ),
     "nan corner": (lambda s: s.add_polygon([(0, 2), (1, 2), (1, NAN)], name="x"), ["x"]),
-    "corner of words": (lambda s: s.add_polygon([(0, 2), ("a", "b"), (1, 3)]), ["vertex"]),
     "unknown body": (lambda s: s.body("grund"), ["grund", "ground"]),
     "unknown block": (lambda s: ds.check(s, ["grund"]), ["grund", "ground"]),
     "overlap": (

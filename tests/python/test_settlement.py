@@ -289,3 +289,9 @@ def test_what_moves_as_a_whole_does_no_work_and_opens_no_joint() -> None:
     assert settled is not None
     assert settled.joints == ()
     assert "0 joints open (0 hinges); the loads do 0 J;" in str(settled)
+
+
+def test_millimetres_are_warned_of() -> None:
+    scene = beam().without_settlements()
+    with pytest.warns(UserWarning, match="displacement is 10 m, .* in metres"):
+        scene.add_settlement("right", (0, -10))

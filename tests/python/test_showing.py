@@ -15,6 +15,7 @@ from PIL import Image
 
 import drystone as ds
 from drystone.common.drawn import Drawn
+from drystone.pictures import save_film
 
 THINGS: dict[str, Callable[[], Drawn]] = {
     "scene": lambda: ds.scenes.arch(5),
@@ -63,8 +64,41 @@ def test_a_name_or_axes() -> None:
         scene.draw()
     with pytest.raises(TypeError, match="one of the two"):
         scene.draw("a.svg", ax=Figure().subplots())
-    with pytest.raises(ValueError, match=r"\.svg, \.pdf or \.png, not '\.bmp'"):
-        ds.check(scene).save("a.bmp")
+
+
+PICTURES = ".svg, .pdf, .png"
+
+
+@pytest.mark.parametrize(
+    ("write", "known"),
+    [
+        (lambda name: ds.scenes.arch(5).draw(name), f"{PICTURES} or .html"),
+        (lambda name: ds.World(ds.scenes.arch(5)).draw(name), ".svg, .pdf or .png"),
+        (lambda name: ds.check(ds.scenes.arch(5)).save(name), f".json, {PICTURES} or .html"),
+        (lambda name: ds.plan(ds.scenes.column(2)).draw(name), f"{PICTURES} or .html"),
+        (
+            lambda name: ds.plan(ds.scenes.column(2)).save(name),
+            f".json, {PICTURES}, .html, .gif or .mp4",
+        ),
+        (
+            lambda name: ds.simulate(ds.scenes.column(2), steps=1).save(name),
+            f".npz, .html, .gif, .mp4, {PICTURES[:-6]} or .png",
+        ),
+        (lambda name: ds.scenes.arch(5).view().save(name), ".html"),
+    ],
+)
+@pytest.mark.parametrize("name", ["a.bmp", "a"])
+def test_an_unknown_ending_is_refused_with_those_that_work(
+    write: Callable[[str], None],
+    known: str,
+    name: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ValueError, match=f"^{name}: give it a name that ends in {known}$"):
+        write(name)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("name", ["verdict", "limit", "margin", "plan"])
@@ -89,6 +123,13 @@ def test_a_run_is_saved_as_what_the_name_says(tmp_path: Path) -> None:
     with Image.open(tmp_path / "run.gif") as film:
         assert film.n_frames == 3  # 0.1 s at 25 pictures a second, both ends included
         assert film.info["duration"] == 40
+
+
+def test_who_waits_for_a_film_is_told_how_far_it_is(tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    run = ds.simulate(ds.scenes.fall7(), steps=24)
+    save_film(run, tmp_path / "a.gif", 40, lambda *done: told.append(done))
+    assert told == [(1, 3), (2, 3), (3, 3)]
 
 
 def test_a_plan_is_a_film_of_its_steps(tmp_path: Path) -> None:

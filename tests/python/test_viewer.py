@@ -506,7 +506,7 @@ def test_the_command_line_writes_the_page(cli: Callable[..., Ran], tmp_path: Pat
     assert _embedded((tmp_path / "plan.html").read_text())["frames"]["count"] == 5
     refused = cli("plan", "column:5", "-o", tmp_path / "plan.bmp")
     assert refused.status == 2
-    assert ".svg, .pdf, .png, .html, .gif or .mp4" in refused.err
+    assert ".svg, .pdf, .png, .html, .json, .gif or .mp4" in refused.err
     column = tmp_path / "column.json"
     ds.scenes.column(5).extruded().save(column)
     assert cli("plan", column, "-o", tmp_path / "space.html").status == 0

@@ -69,19 +69,29 @@ export function viewOf(film: Film): Box {
     const movable = every.filter((body) => !film.bodies[body].fixed);
     const shown = movable.length > 0 ? movable : every;
     const first = around(film, 0, shown) ?? [0, 0, 1, 1];
-    const size = Math.max(first[2] - first[0], first[3] - first[1]);
-    let box = first;
+    const fixed = around(film, 0, every) ?? first;
+    let swept = first;
     const stride = Math.max(1, Math.floor(film.count / SAMPLES));
-    for (let frame = 0; frame < film.count && film.times; frame += stride) {
-        const now = around(film, frame, shown);
-        if (now) box = joined(box, within(now, grown(first, MOTION_REACH * size)));
+    for (let frame = 0; frame < film.count && film.times; frame += stride)
+        swept = joined(swept, around(film, frame, shown) ?? swept);
+    let box = first;
+    // First how far it falls, then as far beside it.
+    for (let turn = 0; turn < 2; turn++) {
+        const limit = grown(first, MOTION_REACH * sizeOf(box));
+        box = joined(first, within(swept, asFarAsItFalls(limit, fixed, film.gravity)));
     }
-    if (movable.length > 0) {
-        const reach = FIXED_REACH * Math.max(box[2] - box[0], box[3] - box[1]);
-        const fixed = around(film, 0, every) ?? box;
-        box = joined(box, within(fixed, grown(box, reach)));
-    }
-    return grown(box, MARGIN * Math.max(box[2] - box[0], box[3] - box[1]));
+    if (movable.length > 0) box = joined(box, within(fixed, grown(box, FIXED_REACH * sizeOf(box))));
+    return grown(box, MARGIN * sizeOf(box));
+}
+
+/** The limit, but down to where fixed bodies are: what falls on them is seen to land. */
+function asFarAsItFalls(limit: Box, fixed: Box, [x, y]: number[]): Box {
+    return [
+        x < 0 ? Math.min(limit[0], fixed[0]) : limit[0],
+        y < 0 ? Math.min(limit[1], fixed[1]) : limit[1],
+        x > 0 ? Math.max(limit[2], fixed[2]) : limit[2],
+        y > 0 ? Math.max(limit[3], fixed[3]) : limit[3],
+    ];
 }
 
 function around(film: Film, frame: number, bodies: number[]): Box | null {
@@ -97,6 +107,10 @@ function around(film: Film, frame: number, bodies: number[]): Box | null {
         }
     }
     return box[0] <= box[2] ? box : null;
+}
+
+function sizeOf([l, b, r, t]: Box): number {
+    return Math.max(r - l, t - b);
 }
 
 function grown([l, b, r, t]: Box, by: number): Box {

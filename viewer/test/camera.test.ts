@@ -38,3 +38,16 @@ test("a body that flies away does not take the view with it", async () => {
     const [, , right] = viewOf(await filmOf(run));
     assert.ok(right > 1 && right < 4);
 });
+
+test("what falls from high up is seen to land", async () => {
+    const run = runRecording();
+    const [ground, far] = [
+        [0, -0.5, 0],
+        [0, 20, 0],
+    ];
+    const first = [...ground, ...far, ...[0, 21, 0]];
+    const then = [...ground, ...[0, 0.5, 0], ...[0, 1.5, 0]];
+    run.frames.poses = packed(Float32Array.of(...first, ...then), [2, 3, 3]);
+    const [, bottom, , top] = viewOf(await filmOf(run));
+    assert.ok(bottom < 0 && bottom > -5 && top > 21);
+});

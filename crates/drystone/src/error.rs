@@ -194,7 +194,7 @@ pub enum SceneError {
     /// Two blocks occupy the same place by more than the contact tolerance.
     #[error(
         "blocks \"{a}\" and \"{b}\" overlap by {depth:.3e} m, more than the contact tolerance of \
-         {tolerance:.3e} m: move them apart, or raise the scene's contact_tolerance if the depth \
+         {tolerance:.3e} m: move them apart (scene.parted() does), or raise the scene's contact_tolerance if the depth \
          is mere rounding; a picture of the scene (scene.draw, or drystone scene FILE -o x.svg) shows where"
     )]
     Overlap {
@@ -276,6 +276,12 @@ pub enum FileError {
         file: String,
         /// The operating system's words.
         reason: String,
+    },
+    /// There is no text at all.
+    #[error("{file}: it is empty: give a scene, as Scene.save and drystone scene write it")]
+    Empty {
+        /// The file.
+        file: String,
     },
     /// The text ends in the middle of the scene.
     #[error("{file}: the file ends early, at line {line} column {column}: it was cut short, copy it again")]

@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
+import warnings
 from typing import TextIO
 
 from drystone.cli.errors import BAD_INPUT, INTERRUPTED, NOT_READ, InputError
@@ -24,6 +25,7 @@ def main() -> None:
         # A name that a stream's encoding does not know is no reason to fail.
         if stream is not None and hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
+    warnings.showwarning = _warn
     try:
         status = run(sys.argv[1:])
     except KeyboardInterrupt:
@@ -50,6 +52,11 @@ def run(arguments: list[str]) -> int:
         return NOT_READ if isinstance(error.__context__, BrokenPipeError) else BAD_INPUT
     except BaseException as error:  # a panic of the compiled core is no Exception
         return _failed(error)
+
+
+def _warn(message: Warning | str, *_: object, **__: object) -> None:
+    """A warning is a line too, not a place in a program that the user did not write."""
+    _complain(str(message))
 
 
 def _failed(error: BaseException) -> int:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from drystone.cli.errors import InputError
+from drystone.cli.flags import App
 from drystone.cli.options import (
     AsJson,
     Block,
@@ -25,9 +26,10 @@ from drystone.equilibrium.contact_force import WhichForces
 from drystone.equilibrium.margins import LoadsUnder
 from drystone.many.engines import EngineName
 from drystone.motion.modes import Formulation, Reuse
+from drystone.planning.answer import MOST_HELD
 from drystone.planning.search import OrderOfPlan, StabilityTest
 
-app = typer.Typer(
+app = App(
     help="Does it stand, how does it move, and in which order can it be taken apart? "
     "Exact contact dynamics of stacked rigid bodies.",
     no_args_is_help=True,
@@ -162,7 +164,9 @@ def plan(
     hold: Annotated[
         int,
         typer.Option(
-            min=0, max=8, help="Blocks that may be held at a time if there is no order without."
+            min=0,
+            max=MOST_HELD,
+            help="Blocks that may be held at a time if there is no order without.",
         ),
     ] = 0,
     clear_path: Annotated[
@@ -199,8 +203,9 @@ def plan(
         typer.Option(
             "-o",
             "--output",
-            help="Write a picture (.svg, .pdf, .png), a page to step through (.html) or a film "
-            "(.gif, .mp4). For a folder of scenes: where its plans are kept.",
+            help="Write a picture (.svg, .pdf, .png), a page to step through (.html), a film "
+            "(.gif, .mp4) or what --json prints (.json). For a folder of scenes: where its plans "
+            "are kept.",
         ),
     ] = None,
     engine: Annotated[
@@ -338,7 +343,7 @@ def simulate(
 @app.command("import")
 def import_(
     file: Annotated[
-        Path,
+        str,
         typer.Argument(
             metavar="FILE",
             help="A COMPAS assembly (.json), a folder of meshes or its manifest.json, MJCF (.xml), "
@@ -443,7 +448,7 @@ def import_(
     )
 
 
-bench_app = typer.Typer(help="Repeat published measurements.", no_args_is_help=True)
+bench_app = App(help="Repeat published measurements.", no_args_is_help=True)
 app.add_typer(bench_app, name="bench")
 
 

@@ -8,10 +8,11 @@ from pathlib import Path
 
 from drystone.cli.errors import InputError
 from drystone.cli.forces import with_forces_in_time
-from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path, said_of
+from drystone.cli.inputs import chosen, load_scene, numbers, picture_path, said_of, write
 from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
 from drystone.common.drawn import Drawn
+from drystone.common.files import JSON, PAGE
 from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
 from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
@@ -38,7 +39,7 @@ def run(
 
     With `strong` 0 if it must stand, 1 if it need not, 2 if that was not decided.
     """
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE, JSON)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     if budget is not None and not strong:
@@ -56,7 +57,7 @@ def run(
     )
     if forces is None:
         verdict = with_forces_in_time(verdict)
-    draw(_drawn(verdict, picture), picture)
+    write(verdict, _drawn(verdict, picture), picture)
     if as_json:
         verdict.write_json(sys.stdout)
     else:
@@ -74,9 +75,7 @@ def _drawn(verdict: Verdict, picture: Path | None) -> Drawn:
     """What a picture is of. The page of a verdict has its settlement in it."""
     if verdict.settled is not None:
         return (
-            verdict
-            if picture is not None and picture.suffix.lower() == ".html"
-            else verdict.settled
+            verdict if picture is not None and picture.suffix.lower() == PAGE else verdict.settled
         )
     return verdict.escape or verdict
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def run(
-    file: Path,
+    file: str,
     output: Path | None,
     as_json: bool,
     *,

@@ -11,7 +11,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from drystone.cli.errors import InputError
+from drystone.common import later
+from drystone.common.drawn import DPI
 from drystone.common.extras import require
+from drystone.common.files import FILMS, JSON, PAGE, PICTURES, RUN, ending_of
+from drystone.common.json_text import Written, save_json
+from drystone.common.progress import FilmProgress
 from drystone.common.text import shown
 
 if TYPE_CHECKING:
@@ -108,11 +113,20 @@ class Drawn(Protocol):
     def draw(self, path: str | PathLike[str]) -> None: ...
 
 
-def draw(answer: Drawn, picture: Path | None) -> None:
-    """Its picture, if one was asked for."""
-    if picture is not None:
+def write(answer: Written, drawn: Drawn, path: Path | None) -> None:
+    """The answer as JSON, or the picture or page of what is drawn of it, if one was asked for."""
+    if path is not None:
         with reporting_files():
-            answer.draw(picture)
+            if path.suffix.lower() == JSON:
+                save_json(answer, path)
+            else:
+                drawn.draw(path)
+
+
+def save_film(answer: object, path: Path) -> None:
+    """The film of a plan or a run, with a bar while it is drawn."""
+    with FilmProgress() as progress:
+        later.film(answer, path, DPI, progress)
 
 
 def python_name(name: str) -> str:
@@ -120,13 +134,12 @@ def python_name(name: str) -> str:
     return name.replace("-", "_")
 
 
-PICTURES = (".svg", ".pdf", ".png")
-FILMS = (".gif", ".mp4")
 KINDS = {
     **dict.fromkeys(PICTURES, "picture"),
     **dict.fromkeys(FILMS, "film"),
-    ".html": "page",
-    ".npz": "run",
+    PAGE: "page",
+    RUN: "run",
+    JSON: "answer",
 }
 """What a file is, by the ending of its name."""
 
@@ -134,11 +147,13 @@ KINDS = {
 def picture_path(path: Path | None, *others: str) -> Path | None:
     """`path`, refused before any work if it ends neither as a picture's nor in one of `others`, or
     if what draws it is not installed."""
-    endings = (*PICTURES, *others)
-    if path is not None and path.suffix.lower() not in endings:
-        known = f"{', '.join(endings[:-1])} or {endings[-1]}"
-        raise InputError(f"{path}: give it a name that ends in {known}")
-    if path is not None and path.suffix.lower() in (*PICTURES, *FILMS):
+    if path is None:
+        return None
+    try:
+        ending = ending_of(path, (*PICTURES, *others))
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    if ending in (*PICTURES, *FILMS):
         require("pictures", "pictures")
     return path
 

@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import chosen, draw, load_scene, numbers, picture_path, said_of
+from drystone.cli.inputs import chosen, load_scene, numbers, picture_path, said_of, write
 from drystone.cli.output import console
 from drystone.common.cones import Cone
+from drystone.common.files import JSON, PAGE
 from drystone.common.json_text import write_json
 from drystone.equilibrium.limits import Limit, limit
 from drystone.report.tables import motion_table
@@ -33,7 +34,7 @@ def run(
     """0 if it stands under some factor, 1 if under none, 2 if there is no answer."""
     if not push and gravity is None:
         raise InputError("nothing pushes: give --push, as 7:100,0, or --gravity, as 9.81,0")
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE, JSON)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     found = limit(
@@ -44,7 +45,7 @@ def run(
         facets=facets,
         cone=cone,
     )
-    draw(found, picture)
+    write(found, found, picture)
     if as_json:
         write_json(found.to_dict(), sys.stdout)
     else:

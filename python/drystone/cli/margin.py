@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drystone.cli.errors import InputError
-from drystone.cli.inputs import chosen, draw, load_scene, picture_path, said_of
+from drystone.cli.inputs import chosen, load_scene, picture_path, said_of, write
 from drystone.cli.output import console
 from drystone.common.cones import Cone
+from drystone.common.files import JSON, PAGE
 from drystone.common.json_text import write_json
 from drystone.equilibrium.margins import LoadsUnder, Margin, margin
 from drystone.report.tables import motion_table
@@ -27,11 +28,11 @@ def run(
     cone: Cone,
 ) -> int:
     """0 if it has a margin, 1 if it falls, 2 if there is no answer."""
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE, JSON)
     scene = load_scene(scene_name)
     names = chosen(blocks, block)
     found = margin(scene, names, loads=loads, tolerance=tolerance, facets=facets, cone=cone)
-    draw(found, picture)
+    write(found, found, picture)
     if as_json:
         write_json(found.to_dict(), sys.stdout)
     else:

@@ -25,7 +25,8 @@ Picture = Annotated[
     typer.Option(
         "-o",
         "--output",
-        help="Write a picture (.svg, .pdf, .png), or a page that plays what moves (.html).",
+        help="Write a picture (.svg, .pdf, .png), a page that plays what moves (.html), or what "
+        "--json prints (.json).",
     ),
 ]
 Blocks = Annotated[

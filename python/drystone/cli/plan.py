@@ -11,15 +11,16 @@ from pathlib import Path
 from drystone.cli.errors import InputError
 from drystone.cli.forces import with_forces_in_time
 from drystone.cli.inputs import (
-    FILMS,
     kind_of,
     load_scene,
     picture_path,
     reporting_files,
     said_of,
+    save_film,
 )
 from drystone.cli.output import console, facts, in_a_row, names
 from drystone.common.cones import Pyramid
+from drystone.common.files import FILMS, JSON, PAGE
 from drystone.common.progress import ForcesProgress, PlanProgress
 from drystone.common.text import shown
 from drystone.common.units import scale_of
@@ -58,7 +59,7 @@ def run(
         )
     if strong and (margin or order != "any"):
         raise InputError("--strong goes without --margin and --order robust")
-    picture = picture_path(output, ".html", *FILMS)
+    picture = picture_path(output, PAGE, JSON, *FILMS)
     scene = load_scene(scene_name)
     in_the_way = None if obstacles is None else load_scene(obstacles)
     with PlanProgress() as progress:
@@ -81,12 +82,12 @@ def run(
             facets=facets,
             cone=cone,
         )
+    if found.whole is not None and (as_json or (picture and kind_of(picture) == "answer")):
+        found = replace(found, whole=with_forces_in_time(found.whole))
     if picture is not None:
         with reporting_files():
             _write(found, picture)
     if as_json:
-        if found.whole is not None:
-            found = replace(found, whole=with_forces_in_time(found.whole))
         found.write_json(sys.stdout)
     else:
         _print(found, picture)
@@ -94,12 +95,14 @@ def run(
 
 
 def _write(found: Plan, path: Path) -> None:
-    if kind_of(path) != "page":
+    if kind_of(path) == "film":
+        save_film(found, path)
+    elif kind_of(path) != "page":
         found.save(path)
-        return
-    with ForcesProgress() as progress:
-        page = found.view(progress)
-    page.save(path)
+    else:
+        with ForcesProgress() as progress:
+            page = found.view(progress)
+        page.save(path)
 
 
 def _print(found: Plan, picture: Path | None) -> None:
@@ -114,6 +117,8 @@ def _print(found: Plan, picture: Path | None) -> None:
         told.add_row("falls with any of", names(found.falls_next) or "nothing tried")
         if found.whole is not None:
             told.add_row("the whole assembly", str(found.whole))
+        if found.next_hold is not None:
+            told.add_row("with blocks held", f"there may be an order: --hold {found.next_hold}")
     if found.margin and found.found:
         bears = [f"{m:.3g}" for m in found.margins]
         told.add_row("bears sideways, in g", in_a_row(bears, len(bears)))

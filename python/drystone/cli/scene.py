@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
 
 from drystone import _core, scenes
+from drystone.cli.flags import App, Group
 from drystone.cli.inputs import (
-    PICTURES,
     STANDARD,
     builder_of,
     load_scene,
@@ -24,10 +23,11 @@ from drystone.cli.inputs import (
     said_of,
 )
 from drystone.cli.options import File
+from drystone.common.files import PAGE, PICTURES
 from drystone.scene import Scene
 
 
-class SceneGroup(TyperGroup):
+class SceneGroup(Group):
     """`drystone scene FILE` is `drystone scene draw FILE`, and `wall:6` is `wall --rows 6`."""
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -45,7 +45,7 @@ class SceneGroup(TyperGroup):
         return super().resolve_command(ctx, args)
 
 
-scene_app = typer.Typer(
+scene_app = App(
     cls=SceneGroup,
     help="Write a built-in scene as a scene file, or draw a scene.",
     no_args_is_help=True,
@@ -84,7 +84,7 @@ def draw(
     ],
 ) -> int:
     """Draw a scene, with blocks that overlap in red; `draw` may be left out before a file."""
-    picture = picture_path(output, ".html")
+    picture = picture_path(output, PAGE)
     given = load_scene(scene)
     with reporting_files():
         given.draw(picture or output)
@@ -101,7 +101,7 @@ def _command(builder: Callable[..., Scene], helps: dict[str, str]) -> Callable[.
         if output is None or str(output) == STANDARD:
             print(scene.to_json())
             return 0
-        drawn = output.suffix.lower() in (*PICTURES, ".html")
+        drawn = output.suffix.lower() in (*PICTURES, PAGE)
         with reporting_files():
             (scene.draw if drawn else scene.save)(output)
         print(said_of(output) if drawn else f"{len(scene)} bodies written to {output}")

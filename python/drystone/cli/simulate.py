@@ -8,15 +8,16 @@ from typing import TYPE_CHECKING
 
 from drystone.cli.errors import INTERRUPTED
 from drystone.cli.inputs import (
-    FILMS,
     kind_of,
     load_scene,
     picture_path,
     reporting_files,
     said_of,
+    save_film,
 )
 from drystone.cli.output import console, facts
 from drystone.common.cones import Pyramid
+from drystone.common.files import FILMS, PAGE, RUN
 from drystone.common.progress import RunProgress
 from drystone.common.text import counted
 from drystone.common.units import quantity
@@ -43,7 +44,7 @@ def run(
     output: Path | None,
 ) -> int:
     """0 if every step was made, 1 if one could not be, 130 after Ctrl-C."""
-    output = picture_path(output, ".html", *FILMS, ".npz")
+    output = picture_path(output, PAGE, *FILMS, RUN)
     forces = forces or (output is not None and kind_of(output) != "run")
     scene = load_scene(scene_name)
     with RunProgress() as progress:
@@ -62,7 +63,10 @@ def run(
         )
     if output is not None:
         with reporting_files():
-            made.save(output)
+            if kind_of(output) == "film":
+                save_film(made, output)
+            else:
+                made.save(output)
     if as_json:
         print(json.dumps(made.to_dict(), indent=2))
     else:

@@ -12,14 +12,21 @@ if TYPE_CHECKING:
     from drystone._core import DrystoneError
 
 
-def floats(value: ArrayLike, what: str, error: type[DrystoneError]) -> NDArray[np.float64]:
-    """As contiguous floats; an `error` that names `what` if they are none."""
+def floats(
+    value: ArrayLike, what: str, error: type[DrystoneError], wanted: str = "hold real numbers"
+) -> NDArray[np.float64]:
+    """As contiguous floats. TypeError, also for text, or an `error` names `what` if they are none,
+    and what is `wanted`."""
     if np.iscomplexobj(value):
-        raise error(f"{what} must hold real numbers, not complex ones")
+        raise error(f"{what} must {wanted}, not complex ones")
     try:
-        made = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise error(f"{what} must hold real numbers, not {value!r:.60}") from None
+        given = np.asarray(value)
+        if given.dtype.kind in "SU":
+            raise TypeError
+        made = np.asarray(given, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as reason:
+        fault = TypeError if isinstance(reason, TypeError) else error
+        raise fault(f"{what} must {wanted}, not {value!r:.60}") from None
     return np.ascontiguousarray(made) if made.ndim else made
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Final, Literal, TypeAlias, get_args
 
 from drystone import _core
+from drystone.common.numbers import whole
 
 FACETS = 8
 """Edges of a friction cone without a choice."""
@@ -32,6 +33,7 @@ def core_cones(facets: int, cone: str, known: tuple[str, ...] = CONES[:2]) -> tu
     ValueError for another cone."""
     if cone not in known:
         raise ValueError(f"unknown cone {cone!r}: choose one of {', '.join(known)}")
-    if not 3 <= facets <= MOST_FACETS:
-        raise _core.SceneError(f"facets is {facets}: a cone in space has 3 to {MOST_FACETS}")
-    return facets, cone
+    edges = whole(facets, "facets")
+    if not 3 <= edges <= MOST_FACETS:
+        raise _core.SceneError(f"facets is {edges}: a cone in space has 3 to {MOST_FACETS}")
+    return edges, cone

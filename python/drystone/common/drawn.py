@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from os import PathLike, fspath
-from pathlib import Path
+from os import PathLike
 from typing import TYPE_CHECKING
 
 from drystone.common import later
+from drystone.common.files import PAGE, PICTURES, ending_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,11 +32,11 @@ class Drawn:
 
         Raises ValueError for another ending, and TypeError unless one of `path` and `ax` is given.
         """
-        if (path is None) == (ax is None):
-            raise TypeError("draw wants a file's name, or ax=: one of the two")
+        _require_one(path, ax)
         if ax is not None:
             later.draw_on(self, ax)
         elif path is not None:
+            ending_of(path, PICTURES)
             later.save_figure(later.figure(self), path, dpi)
 
     def show(self) -> None:
@@ -56,7 +56,8 @@ class Paged(Drawn):
         self, path: str | PathLike[str] | None = None, *, ax: Axes | None = None, dpi: float = DPI
     ) -> None:
         """Write a picture as `Drawn.draw` does, or a page if the name ends in .html."""
-        if path is not None and fspath(path).lower().endswith(".html"):
+        _require_one(path, ax)
+        if path is not None and ending_of(path, (*PICTURES, PAGE)) == PAGE:
             self.view().save(path)
         else:
             super().draw(path, ax=ax, dpi=dpi)
@@ -66,6 +67,11 @@ class Paged(Drawn):
         return later.page(self)
 
 
-def is_film(path: str | PathLike[str]) -> bool:
-    """Whether a name is that of a film."""
-    return Path(path).suffix.lower() in (".gif", ".mp4")
+def _require_one(path: object, ax: object) -> None:
+    """TypeError unless a name or axes are given."""
+    if (path is None) == (ax is None):
+        raise TypeError("draw wants a file's name, or ax=: one of the two")
+    if hasattr(path, "set_xlim"):
+        raise TypeError("draw wants axes by name: draw(ax=axes)")
+    if ax is not None and not hasattr(ax, "set_xlim"):
+        raise TypeError(f"ax must be axes of matplotlib, not a {type(ax).__name__}")

@@ -25,15 +25,11 @@ class Written(Protocol):
     def write_json(self, file: TextIO) -> None: ...
 
 
-def save_json(answer: Written, path: str | PathLike[str]) -> bool:
-    """Write an answer to a file, whole or not at all, if its name ends in .json; say whether."""
-    target = Path(path)
-    if target.suffix.lower() != ".json":
-        return False
+def save_json(answer: Written, path: str | PathLike[str]) -> None:
+    """Write an answer to a file, whole or not at all."""
     text = io.StringIO()
     answer.write_json(text)
-    write_whole(target, text.getvalue().encode())
-    return True
+    write_whole(Path(path), text.getvalue().encode())
 
 
 def write_json(value: object, file: TextIO) -> None:

@@ -74,6 +74,16 @@ class ForcesProgress(_Bar):
         self._show(placed, total)
 
 
+class FilmProgress(_Bar):
+    """Use as a context, for the frames of a film."""
+
+    label = "drawing"
+    unit = "frames"
+
+    def __call__(self, drawn: int, total: int) -> None:
+        self._show(drawn, total)
+
+
 class RunProgress(_Bar):
     """Use as a context, and pass it to `simulate` as its `progress`.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 from collections.abc import Iterable
+from difflib import get_close_matches
 
 MOST_ROWS = 40
 """Longer tables are cut, with a line that says so."""
@@ -32,14 +33,45 @@ def _escaped(c: str) -> str:
     return c
 
 
+def like(word: str, known: Iterable[str]) -> str:
+    """The nearest of the `known` words, as a question; empty if none is near.
+
+    >>> like("Boden", ["wall", "boden"]), like("x", ["boden"])
+    (" (did you mean 'boden'?)", '')
+    """
+    small = {name.casefold(): name for name in sorted(known)}
+    near = get_close_matches(word.casefold(), small, n=1)
+    return f" (did you mean {small[near[0]]!r}?)" if near else ""
+
+
 def counted(number: int, thing: str, things: str | None = None) -> str:
     """1 block, 2 blocks; 1 body, 2 bodies where the plural is given."""
     return f"{number} {thing if number == 1 else things or thing + 's'}"
 
 
-def place(numbers: Iterable[float]) -> str:
-    """(0.5, 1), in four digits."""
-    return f"({', '.join(f'{x:.4g}' for x in numbers)})"
+NOTHING = 1e-9
+"""A number smaller than this share of the largest of its kind is printed as 0: forces balance every
+block to 1e-9, and places are rounded too, so that it says nothing."""
+
+
+def digits(value: float, largest: float, count: int = 4) -> str:
+    """So many digits of a number; 0 for what rounding left beside the largest of its kind.
+
+    >>> digits(0.27182818, 1.0), digits(-1.4e-17, 1.0)
+    ('0.2718', '0')
+    """
+    return f"{value:.{count}g}" if abs(value) > NOTHING * largest else "0"
+
+
+def place(numbers: Iterable[float], count: int = 4) -> str:
+    """(0.5, 1): a point or a direction, in four digits or so many.
+
+    >>> place((0.5, 1.0)), place((-6.1e-17, -1.0), 3)
+    ('(0.5, 1)', '(0, -1)')
+    """
+    given = [float(x) for x in numbers]
+    largest = max(map(abs, given), default=0.0)
+    return f"({', '.join(digits(x, largest, count) for x in given)})"
 
 
 def shorten(names: Iterable[str], limit: int = 8) -> str:

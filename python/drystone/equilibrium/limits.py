@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from os import PathLike
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO, TypeAlias
 
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
+from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
-from drystone.common.numbers import names_of, vector
+from drystone.common.numbers import Floats, name_of, names_of, vector
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
 from drystone.scene import Scene
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-Push = Mapping[str, Sequence[float]]
+Push: TypeAlias = Mapping[str, Floats]
 """Body and the force on its centroid, N, world axes: two numbers in the plane, three in space;
 behind them, if given, the moment beside it, N m: one number, in space three."""
 
@@ -179,15 +180,18 @@ class Limit(Paged):
         write_json(self.to_dict(), file)
 
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write `to_dict` (.json), or the picture of the forces and the collapse."""
-        if not save_json(self, path):
+        """Write `to_dict` (.json), a picture of forces and collapse (.svg, .pdf, .png), or a page
+        that plays it (.html)."""
+        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
+            save_json(self, path)
+        else:
             self.draw(path, dpi=dpi)
 
 
 def limit(
     scene: Scene,
     push: Push | None = None,
-    gravity: Sequence[float] | None = None,
+    gravity: Floats | None = None,
     blocks: Iterable[str] | None = None,
     *,
     facets: int = FACETS,
@@ -235,9 +239,9 @@ def movable(scene: Scene, names: list[str] | None) -> tuple[str, ...]:
 
 
 def core_push(
-    scene: Scene, push: Push | None, gravity: Sequence[float] | None
+    scene: Scene, push: Push | None, gravity: Floats | None
 ) -> tuple[CoreForces, tuple[float, ...] | None]:
-    """A push as the core takes it; SceneError for what is none."""
+    """A push as the core takes it; TypeError or SceneError for what is none."""
     if push is None and gravity is None:
         raise _core.SceneError("nothing pushes: give push= (forces on bodies) or gravity=")
     if push is not None and not isinstance(push, Mapping):
@@ -248,10 +252,8 @@ def core_push(
     more = 1 if n == 2 else 3
     forces: CoreForces = []
     for name, force in (push or {}).items():
-        given = _numbers(force)
-        if not isinstance(name, str) or given is None or len(given) not in (n, n + more):
-            wanted = f"{n} numbers of force, and {more} of moment behind them if there is one"
-            raise _core.SceneError(f"the push on {name!r} must be {wanted}, not {force!r:.80}")
+        wanted = f"{n} numbers of force, and {more} of moment behind them if there is one"
+        given = vector(force, (n, n + more), f"the push on {name_of(name)!r}", wanted)
         moment = (*(0.0,) * (3 - more), *given[n:]) if len(given) > n else (0.0, 0.0, 0.0)
         forces.append((name, given[:n], (moment[0], moment[1], moment[2])))
     return forces, None if gravity is None else vector(gravity, n, "gravity")
@@ -279,15 +281,6 @@ def limit_of(
         gravity,
         scene,
     )
-
-
-def _numbers(value: Any) -> tuple[float, ...] | None:
-    if isinstance(value, str):
-        return None
-    try:
-        return tuple(float(x) for x in value)
-    except (TypeError, ValueError):
-        return None
 
 
 def finite(value: float) -> float | None:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drystone import _core
+from drystone.common.arrays import floats
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
-from drystone.common.numbers import names_of
+from drystone.common.numbers import Floats, names_of
 from drystone.common.text import counted
 from drystone.equilibrium.limits import Push, core_push
 from drystone.scene import Scene
@@ -73,7 +74,7 @@ class LoadCases:
 
 def load_cases(
     scene: Scene,
-    loads: Sequence[Push | Sequence[float]],
+    loads: Sequence[Push | Floats],
     factors: ArrayLike,
     blocks: Iterable[str] | None = None,
     *,
@@ -122,12 +123,11 @@ def _push(scene: Scene, load: Any) -> Any:
 
 
 def _factors(factors: ArrayLike, loads: int) -> NDArray[np.float64]:
-    """(cases, loads), read-only; SceneError for what is none."""
+    """(cases, loads), read-only; TypeError or SceneError for what is none."""
     wanted = f"factors must be numbers, (cases, {loads})"
-    try:
-        rows = np.array(factors, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise _core.SceneError(f"{wanted}, not {factors!r:.80}") from None
+    rows: NDArray[np.float64] = floats(
+        factors, "factors", _core.SceneError, f"be numbers, (cases, {loads})"
+    ).copy()
     if rows.size == 0:
         rows = rows.reshape(len(rows), loads) if rows.ndim else rows
     if rows.ndim != 2 or rows.shape[1] != loads:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 from collections.abc import Iterable, Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias, cast
@@ -11,9 +12,10 @@ from drystone import _core
 from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
 from drystone.common.drawn import DPI, Paged
+from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
 from drystone.common.numbers import names_of, number
-from drystone.common.text import MOST_ROWS, counted, shorten
+from drystone.common.text import MOST_ROWS, counted, place, shorten
 from drystone.equilibrium.limits import LimitEnd, finite, limit, movable
 from drystone.scene import Scene
 from drystone.scene.scene import scene_of
@@ -146,9 +148,10 @@ class Margin(Paged):
             return f"No margin, it falls: {falls}."
         if not self.mechanism:
             return "No horizontal acceleration brings it down."
-        way = ", ".join(f"{x:.3g}" for x in self.direction)
-        told = f"Falls at {self.acceleration:.6g} g towards ({way}): {falls}"
-        return told + ("." if self.tilt is None else f"; tilted by {self.tilt:.6g} rad.")
+        told = f"Falls at {self.acceleration:.6g} g towards {place(self.direction, 3)}: {falls}"
+        if self.tilt is None:
+            return f"{told}."
+        return f"{told}; tilted by {self.tilt:.6g} rad ({math.degrees(self.tilt):.3g} degrees)."
 
     def __repr__(self) -> str:
         return f"<Margin: {self}>"
@@ -176,8 +179,11 @@ class Margin(Paged):
         write_json(self.to_dict(), file)
 
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write `to_dict` (.json), or the picture of the collapse."""
-        if not save_json(self, path):
+        """Write `to_dict` (.json), a picture of the collapse (.svg, .pdf, .png), or a page that
+        plays it (.html)."""
+        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
+            save_json(self, path)
+        else:
             self.draw(path, dpi=dpi)
 
 

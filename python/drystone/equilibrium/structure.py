@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.drawn import Paged
-from drystone.common.numbers import name_of, names_of
+from drystone.common.numbers import Floats, name_of, names_of
 from drystone.equilibrium.contact_force import CANONICAL, WhichForces, which_forces
 from drystone.equilibrium.limits import Limit, Push, core_push, limit_of
 from drystone.equilibrium.verdict import Verdict
@@ -93,7 +93,7 @@ class Structure(Paged):
         kind = which_forces(forces)
         return Verdict._of(self._core.check(), copy.copy(self._scene), self._cones[1], kind)
 
-    def limit(self, push: Push | None = None, gravity: Sequence[float] | None = None) -> Limit:
+    def limit(self, push: Push | None = None, gravity: Floats | None = None) -> Limit:
         """How much of a push the structure bears as it is now; `push` and `gravity` as in `limit`.
 
         It begins with the forces that hold the structure. If that takes more than a few pivots, the

@@ -13,8 +13,9 @@ from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS, ROUND, ConeOfCheck, core_cones
 from drystone.common.drawn import DPI, Paged
+from drystone.common.files import JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import Rows, save_json, write_json
-from drystone.common.numbers import names_of, whole
+from drystone.common.numbers import names_of, whole, word
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.bearing import Explanation, Unsupported
 from drystone.equilibrium.contact_force import (
@@ -278,8 +279,11 @@ class Verdict(Paged):
         return later.table(self, rows)
 
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write everything but the scene (.json), or the picture of forces or of the fall."""
-        if not save_json(self, path):
+        """Write all but the scene (.json), a picture of forces or fall (.svg, .pdf, .png), or a
+        page that plays it (.html)."""
+        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
+            save_json(self, path)
+        else:
             self.draw(path, dpi=dpi)
 
 
@@ -341,10 +345,10 @@ def check(
         raise ValueError(f"strong_budget is {strong_budget}: it must be one node or more")
     names = names_of(blocks)
     scene = copy.copy(scene_of(scene))  # the one checked, whatever becomes of it
-    core_cones(facets, cone, (ROUND, *CONES))
+    facets, _ = core_cones(facets, cone, (ROUND, *CONES))
     round_cone = cone == ROUND and method != "lcp"
     inner = CONES[0] if cone in ("both", ROUND) else cone
-    core = _core.check(scene._core, names, method, (facets, inner), round_cone)
+    core = _core.check(scene._core, names, word(method, "method"), (facets, inner), round_cone)
     verdict = Verdict._of(core, scene, ROUND if round_cone else inner, which_forces(forces))
     if cone == "both" and verdict.status == "solved" and not verdict.certain:
         outer = _core.check(scene._core, names, method, (facets, CONES[1]))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drystone._core import SceneError
+from drystone.common.text import like, shorten
 from drystone.imports.pose import Pose
 from drystone.imports.weight import Weight
 from drystone.meshes.hull import hull_volume
@@ -224,8 +225,11 @@ class Collected:
     def _refuse_unknown(self, names: Iterable[str]) -> None:
         unknown = set(names) - {body.name for body in self.bodies}
         if unknown:
-            known = ", ".join(body.name for body in self.bodies[:20])
-            raise FormatError(f"no body is called {min(unknown)!r}: there are {known}")
+            known = [body.name for body in self.bodies]
+            word = min(unknown)
+            raise FormatError(
+                f"no body is called {word!r}{like(word, known)}: there are {shorten(known, 20)}"
+            )
 
     def _points(self) -> NDArray[np.float64]:
         return np.concatenate([piece for body in self.bodies for piece in body.pieces])

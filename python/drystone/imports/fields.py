@@ -7,13 +7,17 @@ import math
 from pathlib import Path
 from typing import Any
 
+from drystone.common.files import EMPTY
 from drystone.imports.collected import FormatError
 
 
 def read_json(path: Path) -> Any:
     """The data in a JSON file; FormatError if it is not JSON."""
+    text = path.read_bytes()
+    if not text.strip():
+        raise FormatError(f"{path}: {EMPTY}")
     try:
-        return json.loads(path.read_bytes(), object_pairs_hook=_unique)
+        return json.loads(text, object_pairs_hook=_unique)
     except (ValueError, RecursionError) as error:
         raise FormatError(f"{path}: not a JSON file: {error}") from None
 

@@ -8,13 +8,12 @@ the `config.json` of ASAP and Assemble-Them-All, if there is one, says where the
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from drystone.common.text import like
 from drystone.imports.collected import Collected, FormatError
 from drystone.imports.fields import entries, finite, numbers, read_json
 from drystone.imports.pose import Pose, from_euler, from_quaternion
@@ -69,7 +68,7 @@ def _add_listed(
     unknown = sorted(fields.keys() - FIELDS)
     if unknown:
         raise FormatError(
-            f"{what}: unknown field {unknown[0]!r}{_like(unknown[0], FIELDS)}: known are "
+            f"{what}: unknown field {unknown[0]!r}{like(unknown[0], FIELDS)}: known are "
             f"{', '.join(sorted(FIELDS))}"
         )
     file, name = fields.get("file"), fields.get("name")
@@ -78,7 +77,7 @@ def _add_listed(
     if not (path.parent / file).exists():
         beside = [p.name for p in path.parent.iterdir() if p.suffix.lower() in ENDINGS]
         raise FormatError(
-            f"{what}: there is no file {file!r} beside the manifest{_like(file, beside)}"
+            f"{what}: there is no file {file!r} beside the manifest{like(file, beside)}"
         )
     if not isinstance(fields.get("fixed", False), bool):
         raise FormatError(f"{what}: fixed must be true or false")
@@ -110,12 +109,6 @@ def _add(collected: Collected, part: Part, pose: Pose, **options: Any) -> None:
         triangles=part.triangles,
         **options,
     )
-
-
-def _like(word: str, known: Iterable[str]) -> str:
-    """The nearest of the `known` words, as a question; empty if none is near."""
-    near = get_close_matches(word, sorted(known), n=1)
-    return f" (did you mean {near[0]!r}?)" if near else ""
 
 
 def _asap_poses(folder: Path) -> dict[str, Pose]:

@@ -8,9 +8,18 @@ from pathlib import Path
 from drystone.imports.compas_kind import is_assembly
 from drystone.meshes.reading import ENDINGS
 
+UNREAD = (".dxf", ".dwg", ".skp", ".3dm", ".ifc", ".blend", ".fbx", ".dae", ".usd")
+"""Drawings and models that drystone does not read."""
+
+OUT_OF_CAD = (
+    "export the blocks as closed meshes, one object each (.obj, .3mf, .step), or give their "
+    "corners to Scene.add_polygon"
+)
+"""What to do with them."""
+
 MARKUP = (".xml", ".mjcf", ".urdf")
 
-OTHERS = (".svg", ".png", ".pdf", ".html", ".npz", ".csv", ".step", ".stp", ".3mf", ".dae", ".usd")
+OTHERS = (".svg", ".png", ".pdf", ".html", ".npz", ".csv", ".jpg", ".gif", ".mp4", ".bmp")
 """Names that say of a file that it is no scene."""
 
 MOST_BYTES = 1 << 28
@@ -21,6 +30,8 @@ def kind_of(path: Path) -> str | None:
     """What a file of another tool is, as in "a mesh"; None for what is not known."""
     if path.is_dir():
         return "a folder"
+    if not path.exists():
+        return None
     if path.suffix.lower() in ENDINGS:
         return "a mesh"
     try:
@@ -47,6 +58,10 @@ def _kind_of_json(text: bytes) -> str | None:
 
 def advice(path: Path) -> str | None:
     """One line for a file of another tool that was given as a scene."""
+    if path.suffix.lower() in UNREAD and path.exists():
+        return f"{path}: {unread(path)}"
+    if path.suffix.lower() in OTHERS and path.is_file():
+        return f"{path}: no scene, by its name: a scene is a .json file"
     kind = kind_of(path)
     if kind is None:
         return None
@@ -56,6 +71,11 @@ def advice(path: Path) -> str | None:
     )
 
 
+def unread(path: Path) -> str:
+    """What to say of a drawing."""
+    return f"{path.suffix.lower()} is not read: {OUT_OF_CAD}"
+
+
 def lies(path: Path) -> bool:
     """Whether a name says that the file is something else than JSON."""
-    return path.suffix.lower() in (*ENDINGS, *MARKUP, *OTHERS)
+    return path.suffix.lower() in (*ENDINGS, *MARKUP, *OTHERS, *UNREAD)

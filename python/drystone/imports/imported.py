@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
@@ -12,11 +12,13 @@ import numpy as np
 
 from drystone._core import DrystoneError, SceneError
 from drystone.common.choices import Joints, Split, Up
+from drystone.common.numbers import Floats, names_of, number, optional_number, optional_whole
 from drystone.common.text import counted
 from drystone.imports import compas, compas_data, folder, mesh, mjcf, urdf
 from drystone.imports.collected import Collected, FormatError, ImportedBody, LeftOut
 from drystone.imports.compas_kind import is_assembly
 from drystone.imports.fields import read_json
+from drystone.imports.foreign import UNREAD, unread
 from drystone.imports.markup import read_xml
 from drystone.imports.pose import UP
 from drystone.imports.rigid import JOINTS
@@ -102,7 +104,7 @@ def load(
     up: Up = "z",
     friction: float | Mapping[str, float] = FRICTION,
     density: float | Mapping[str, float] | None = None,
-    gravity: Sequence[float] | None = None,
+    gravity: Floats | None = None,
     fixed: Iterable[str] = (),
     ground: bool = False,
     tolerance: float | Literal["auto"] | None = None,
@@ -148,11 +150,14 @@ def load(
     make a scene (two of them overlap), and OSError for a file that cannot be read.
     """
     live = compas_data.is_live(path)
+    if path == "":
+        raise FormatError("the file's name is empty")
     source: Any = path if live else Path(fspath(cast("str | PathLike[str]", path)))
     if up not in UP:
         raise FormatError(f"up must be 'y' or 'z', not {up!r}")
+    fixed = names_of(fixed, "fixed") or ()
     own_units = scale is None
-    scale = 1.0 if scale is None else scale
+    scale = 1.0 if scale is None else number(scale, "scale", error=FormatError)
     if not 0 < scale < float("inf"):
         raise FormatError(f"scale must be a positive number, not {scale!r}")
     if joints not in JOINTS:
@@ -160,7 +165,11 @@ def load(
     if isinstance(tolerance, str) and tolerance != "auto":
         raise FormatError(f"tolerance must be a length in metres or 'auto', not {tolerance!r}")
     # Two bodies touch within it if the surface of each is off by half of it.
-    given = tolerance if isinstance(tolerance, (int, float)) else None
+    given = None if tolerance == "auto" else optional_number(tolerance, "tolerance", FormatError)
+    max_pieces = optional_whole(max_pieces, "max_pieces")
+    simplify = optional_number(simplify, "simplify", FormatError)
+    if not isinstance(density, Mapping):
+        density = optional_number(density, "density")
     collected = Collected(mesh_tolerance=None if given is None else given / 2 / scale)
     try:
         simplify = None if simplify is None else simplify / scale
@@ -253,6 +262,8 @@ def _read(path: Path, collected: Collected, taking: Taking, split: str | None) -
         return _read_json(path, collected, taking)
     if ending in (".xml", ".mjcf", ".urdf"):
         return _read_xml(path, collected, taking)
+    if ending in UNREAD:
+        raise FormatError(f"{path}: {unread(path)}")
     known = ", ".join((".json", ".xml", ".urdf", *ENDINGS))
     raise FormatError(f"{path}: not known by its name: a folder, or one of {known}")
 
@@ -300,7 +311,7 @@ def _read_xml(path: Path, collected: Collected, taking: Taking) -> str:
 def _scene(
     collected: Collected,
     friction: float,
-    gravity: Sequence[float] | None,
+    gravity: Floats | None,
     tolerance: float,
     may_lack: bool,
 ) -> Scene:
@@ -331,7 +342,7 @@ def _scene(
 def _without_overlaps(
     collected: Collected,
     friction: float,
-    gravity: Sequence[float] | None,
+    gravity: Floats | None,
     tolerance: float,
     may_lack: bool,
 ) -> Scene:

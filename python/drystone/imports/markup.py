@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 
+from drystone.common.files import EMPTY
 from drystone.imports.collected import FormatError
 
 MOST_BYTES = 16_000_000
@@ -27,6 +28,8 @@ def read_xml(path: Path) -> ET.Element:
     data = path.read_bytes()
     if len(data) > MOST_BYTES:
         raise FormatError(f"{path}: larger than {MOST_BYTES} bytes: no description of a scene")
+    if not data.strip():
+        raise FormatError(f"{path}: {EMPTY}")
     parser = ET.XMLParser(target=_Tree())
     try:
         parser.feed(data)

@@ -8,10 +8,11 @@ and send back the text of an answer.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from os import PathLike
 
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid
+from drystone.common.numbers import FloatRows, number, optional_number, optional_whole, whole
 from drystone.many import engines
 from drystone.many.answers import ManyPlans, ScenePlan
 from drystone.many.engine import EngineError
@@ -43,7 +44,7 @@ def plan_many(
     shortcuts: bool = True,
     hold: int = 0,
     clear_path: bool = False,
-    directions: Sequence[Sequence[float]] | None = None,
+    directions: FloatRows | None = None,
     margin: float = 0.0,
     order: OrderOfPlan = "any",
     moves: int = 1,
@@ -99,18 +100,18 @@ def plan_many(
         raise ValueError("directions are for straight ways out: give clear_path=True with them")
     settings = Settings(
         test,
-        node_limit,
-        time_limit,
+        optional_whole(node_limit, "node_limit"),
+        optional_number(time_limit, "time_limit"),
         shortcuts,
-        hold,
+        whole(hold, "hold"),
         clear_path,
-        tuple(tuple(map(float, way)) for way in directions or ()),
-        margin,
+        tuple(tuple(map(float, way)) for way in (() if directions is None else directions)),
+        number(margin, "margin"),
         order,
-        moves,
-        together,
+        whole(moves, "moves"),
+        whole(together, "together"),
         None if obstacles is None else scene_of(obstacles).to_json(),
-        facets,
+        whole(facets, "facets"),
         cone,
     ).checked()
     jobs, total = jobs_of(scenes)

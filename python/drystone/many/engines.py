@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Literal, TypeAlias, get_args
 
+from drystone.common.numbers import optional_whole, whole
 from drystone.many.engine import Engine, cores
 from drystone.many.on_threads import on_threads
 
@@ -14,9 +15,10 @@ ENGINES = get_args(EngineName)
 
 def of(name: EngineName, workers: int | None, address: str | None, retries: int) -> Engine:
     """The engine called `name`; ValueError for arguments it cannot use."""
+    workers = optional_whole(workers, "workers")
     if workers is not None and workers < 1:
         raise ValueError(f"workers is {workers}: it must be one or more")
-    if retries < 0:
+    if whole(retries, "retries") < 0:
         raise ValueError(f"retries is {retries}: it must be zero or more")
     if name == "threads":
         if address is not None:

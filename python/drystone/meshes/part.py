@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from drystone.common.arrays import floats
+from drystone.common.numbers import optional_number, optional_whole
 from drystone.common.text import counted
 from drystone.meshes.convex import Decomposition, cleaned
 from drystone.meshes.errors import MeshError
@@ -197,6 +199,9 @@ def part_from(
 ) -> Part:
     """The convex pieces of what a file holds; the rest is as for `read_part`."""
     said = None
+    max_pieces = optional_whole(max_pieces, "max_pieces")
+    simplify = optional_number(simplify, "simplify", MeshError)
+    tolerance = optional_number(tolerance, "tolerance", MeshError)
     if scale is None:
         scale = 1.0 if read.unit is None else read.unit
         if scale != 1.0:
@@ -418,7 +423,9 @@ def _check_corners(piece: NDArray[np.float64]) -> None:
 
 
 def _factors(scale: float | tuple[float, float, float]) -> NDArray[np.float64]:
-    factors = np.broadcast_to(np.asarray(scale, dtype=float), 3)
+    factors = floats(scale, "its scale", MeshError, "be one number or three")
+    if factors.shape not in ((), (1,), (3,)):
+        raise MeshError(f"its scale must be one number or three, not {scale!r:.80}")
     if not np.isfinite(factors).all() or (factors == 0).any():
-        raise MeshError(f"its scale must be finite numbers other than 0, not {scale!r}")
-    return factors
+        raise MeshError(f"its scale must be finite numbers other than 0, not {scale!r:.80}")
+    return np.broadcast_to(factors, 3)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drystone.common.extras import extra
+from drystone.common.files import EMPTY
 from drystone.meshes.errors import MeshError
 from drystone.meshes.msh import read_msh
 from drystone.meshes.obj import Obj, Section, read_obj
@@ -65,6 +66,10 @@ def read_triangles(source: str | PathLike[str] | Any) -> Triangles:
     Raises MeshError for what is no mesh and OSError if the file cannot be opened.
     """
     if not isinstance(source, (str, PathLike)):
+        if not hasattr(source, "vertices"):
+            raise TypeError(
+                f"a mesh must be a file's name or a trimesh.Trimesh, not {source!r:.80}"
+            )
         return of_trimesh(source, "mesh", repeats=False)
     path = checked(source)
     if path.suffix.lower() == ".obj":
@@ -80,8 +85,9 @@ def checked(source: str | PathLike[str]) -> Path:
     path = Path(fspath(source))
     if path.suffix.lower() not in ENDINGS:
         raise MeshError(f"not a mesh file by its name: known are {', '.join(ENDINGS)}")
-    with path.open("rb"):
-        pass  # a file that cannot be opened is an OSError, whatever trimesh makes of it
+    with path.open("rb") as file:  # one that cannot be opened is an OSError, not what trimesh says
+        if not file.read(1):
+            raise MeshError(EMPTY)
     return path
 
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.common import later
-from drystone.common.drawn import DPI, Paged, is_film
-from drystone.common.files import write_whole
+from drystone.common.drawn import DPI, Paged
+from drystone.common.files import FILMS, PAGE, PICTURES, RUN, ending_of, write_whole
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.common.units import quantity
 from drystone.motion.modes import ENDINGS
@@ -231,12 +231,13 @@ class Run(Paged):
         The archive is what `load` reads. A film plays at the speed of the run; an .mp4 needs
         ffmpeg. A file is replaced whole or not at all.
         """
-        if is_film(path):
-            later.film(self, path, dpi)
-        elif Path(path).suffix.lower() in (".html", ".svg", ".pdf", ".png"):
-            self.draw(path, dpi=dpi)
-        else:
+        ending = ending_of(path, (RUN, PAGE, *FILMS, *PICTURES))
+        if ending == RUN:
             write_whole(Path(path), self._packed())
+        elif ending in FILMS:
+            later.film(self, path, dpi)
+        else:
+            self.draw(path, dpi=dpi)
 
     def _packed(self) -> bytes:
         from drystone.motion import run_file

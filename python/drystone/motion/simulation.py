@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.numbers import number, vector, whole
+from drystone.common.numbers import Floats, name_of, number, vector, whole, word
 from drystone.motion.modes import COULOMB_TOLERANCE, MOST_STEPS, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.scene import Scene
@@ -22,7 +22,7 @@ def simulate(
     restitution: float = 0.0,
     formulation: Formulation = "velocity",
     coulomb_tolerance: float = COULOMB_TOLERANCE,
-    velocities: Mapping[str, Sequence[float]] | None = None,
+    velocities: Mapping[str, Floats] | None = None,
     facets: int = FACETS,
     cone: Pyramid = INSCRIBED,
     forces: bool = False,
@@ -83,7 +83,7 @@ def simulate(
     >>> run.poses.shape
     (241, 8, 7)
     """
-    whole(steps, "steps")
+    whole(steps, "steps", _core.SimulationError)
     if not 0 <= steps <= MOST_STEPS:
         raise _core.SimulationError(f"steps is {steps}: it must be from 0 to {MOST_STEPS}")
     if not isinstance(velocities or {}, Mapping):
@@ -91,21 +91,41 @@ def simulate(
             f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
         )
     cones = core_cones(facets, cone)
-    start, dt = scene_of(scene)._core, number(dt, "dt")
-    world = _core.World(start, dt, reuse, restitution, formulation, coulomb_tolerance, cones)
+    world = core_world(scene, dt, reuse, restitution, formulation, coulomb_tolerance, cones)
     for name, velocity in (velocities or {}).items():
-        world.set_velocity(name, velocity_of(world, name, velocity))
+        world.set_velocity(name_of(name), velocity_of(world, name, velocity))
     begun = Scene._of(world.scene)
     return Run._of(world.run(steps, forces, progress), world, begun)
 
 
-def velocity_of(world: _core.World, name: str, value: Sequence[float]) -> tuple[float, ...]:
+def core_world(
+    scene: Scene,
+    dt: float,
+    reuse: str,
+    restitution: float,
+    formulation: str,
+    coulomb_tolerance: float,
+    cones: tuple[int, str],
+) -> _core.World:
+    """A scene at rest, about to move; TypeError for arguments of another type."""
+    return _core.World(
+        scene_of(scene)._core,
+        number(dt, "dt"),
+        word(reuse, "reuse"),
+        number(restitution, "restitution"),
+        word(formulation, "formulation"),
+        number(coulomb_tolerance, "coulomb_tolerance"),
+        cones,
+    )
+
+
+def velocity_of(world: _core.World, name: str, value: Floats) -> tuple[float, ...]:
     """The velocity of a body as floats: three in the plane, six in space."""
     units = "m/s, m/s, rad/s" if world.dimension == 2 else "m/s three times, rad/s three times"
     return numbers(value, 3 * world.dimension - 3, f'block "{name}": velocity', units)
 
 
-def numbers(value: float | Sequence[float], count: int, what: str, units: str) -> tuple[float, ...]:
+def numbers(value: float | Floats, count: int, what: str, units: str) -> tuple[float, ...]:
     """`value` as so many floats, one may stand alone; errors name `what` and its units."""
     given = (value,) if isinstance(value, int | float) else value
     spelled = {1: "one number", 2: "two numbers", 3: "three numbers", 6: "six numbers"}[count]

@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.drawn import Drawn
-from drystone.common.numbers import name_of, number, whole
+from drystone.common.numbers import Floats, name_of, whole
 from drystone.common.text import counted
 from drystone.common.units import quantity
 from drystone.equilibrium.contact_force import ContactForce
 from drystone.motion.modes import COULOMB_TOLERANCE, Formulation, Progress, Reuse
 from drystone.motion.run import Run
-from drystone.motion.simulation import numbers, velocity_of
+from drystone.motion.simulation import core_world, numbers, velocity_of
 from drystone.scene import Point, Scene
 from drystone.scene.adding import Adding
-from drystone.scene.scene import scene_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -94,9 +93,8 @@ class World(Adding, Drawn):
     ) -> None:
         """Begin with a scene at rest; the arguments and errors are those of `simulate`."""
         cones = core_cones(facets, cone)
-        start, dt = scene_of(scene)._core, number(dt, "dt")
-        self._core = _core.World(
-            start, dt, reuse, restitution, formulation, coulomb_tolerance, cones
+        self._core = core_world(
+            scene, dt, reuse, restitution, formulation, coulomb_tolerance, cones
         )
 
     def step(self) -> StepRecord:
@@ -106,7 +104,7 @@ class World(Adding, Drawn):
 
     def run(self, steps: int, *, forces: bool = False, progress: Progress | None = None) -> Run:
         """Make steps and record them, as `simulate` does."""
-        if whole(steps, "steps") < 0:
+        if whole(steps, "steps", _core.SimulationError) < 0:
             raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
         start = self.scene
         return Run._of(self._core.run(steps, forces, progress), self._core, start)
@@ -172,7 +170,7 @@ class World(Adding, Drawn):
         """2 in the plane, 3 in space."""
         return self._core.dimension
 
-    def set_velocity(self, name: str, velocity: Sequence[float]) -> None:
+    def set_velocity(self, name: str, velocity: Floats) -> None:
         """Set a body's velocity: (m/s, m/s, rad/s), in space three and three numbers."""
         self._core.set_velocity(name_of(name), velocity_of(self._core, name, velocity))
 

@@ -13,13 +13,14 @@ with extra("pictures", "pictures"):
     from drystone.pictures.graph import graph_figure
     from drystone.pictures.limits import escape_figure, limit_figure, margin_figure
     from drystone.pictures.pictured import draw_on, figure_of
-    from drystone.pictures.recording import frame_figure
+    from drystone.pictures.recording import frame_figure, frames_box
 
 __all__ = [
     "draw_on",
     "escape_figure",
     "figure_of",
     "frame_figure",
+    "frames_box",
     "graph_figure",
     "limit_figure",
     "margin_figure",

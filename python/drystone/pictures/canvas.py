@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
-from os import PathLike, fspath
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
@@ -18,7 +18,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from drystone.common.drawn import DPI
-from drystone.common.files import write_whole
+from drystone.common.files import PICTURES, ending_of, write_whole
+from drystone.common.numbers import number
 from drystone.pictures import style
 
 if TYPE_CHECKING:
@@ -38,8 +39,8 @@ SETTINGS: dict[Any, Any] = {
 """Same input, same file: no random identifiers. Text stays text."""
 
 
-ENDINGS = (".svg", ".pdf", ".png")
-"""Of the names of pictures."""
+LEAST_DPI, MOST_DPI = 10, 2400
+"""Below, letters have no pixel and matplotlib ends the process; above, a picture fills memory."""
 
 UNSAID: dict[str, dict[str, None]] = {
     "svg": {"Date": None},
@@ -193,12 +194,8 @@ def _within(
 
 def save(figure: Figure, path: str | PathLike[str], dpi: float = DPI) -> None:
     """Write the figure whole or not at all; ValueError unless the name ends as a picture's."""
-    suffix = Path(fspath(path)).suffix.lower()
-    if suffix not in ENDINGS:
-        known = f"{', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}"
-        raise ValueError(f"a picture's name ends in {known}, not {suffix or 'nothing'!r}")
-    data = rendered(figure, suffix[1:], dpi)
-    write_whole(Path(fspath(path)), data)
+    data = rendered(figure, ending_of(path, PICTURES)[1:], dpi)
+    write_whole(Path(path), data)
 
 
 def svg(figure: Figure) -> str:
@@ -208,9 +205,12 @@ def svg(figure: Figure) -> str:
 
 def rendered(figure: Figure, kind: str, dpi: float = DPI) -> bytes:
     """The figure as a file of some kind: the same figure, the same bytes."""
+    dots = number(dpi, "dpi")
+    if not LEAST_DPI <= dots <= MOST_DPI:
+        raise ValueError(f"dpi is {dots:g}: it must be from {LEAST_DPI} to {MOST_DPI}")
     out = io.BytesIO()
     with mpl.rc_context(SETTINGS):
-        figure.savefig(out, format=kind, dpi=dpi, metadata=UNSAID[kind])
+        figure.savefig(out, format=kind, dpi=dots, metadata=UNSAID[kind])
     return out.getvalue()
 
 

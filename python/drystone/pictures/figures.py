@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -77,18 +78,19 @@ def moved_figure(verdict: Moved, unit: str) -> Figure:
     present = set(verdict.names)
     falling = set(verdict.falling)
     headline, _, details = str(verdict).partition("; ")
-    canvas = fitted(bodies, headline, details, key=True)
+    blocks = [body for body in bodies if body.name in present]
+    gone = _displaced(verdict, blocks)
+    canvas = fitted([*bodies, *gone], headline, details, key=True)
     draw_fixed(canvas, bodies)
     draw_absent(canvas, [b for b in bodies if not b.fixed and b.name not in present])
     fills = {name: style.FALLING if name in falling else style.STONE for name in verdict.names}
     draw_blocks(canvas, bodies, fills, dict.fromkeys(falling, style.FALL))
     draw_labels(canvas, bodies, {name: name for name in fills}, fills)
-    blocks = [body for body in bodies if body.name in present]
     longest = _longest(canvas, blocks)
     _draw_forces(canvas, verdict, longest)
     draw_loads(canvas, verdict.scene, present, longest)
     if falling:
-        _draw_fall(canvas, verdict, blocks, longest, unit)
+        _draw_fall(canvas, verdict, blocks, gone, longest, unit)
     return canvas.figure
 
 
@@ -173,18 +175,32 @@ def _draw_forces(canvas: Canvas, verdict: Moved, longest: float) -> None:
     draw_arrows(canvas, points, vectors, longest, "N", style.FORCE)
 
 
+def _displaced(verdict: Moved, blocks: Sequence[Body]) -> list[Body]:
+    """Where the falling blocks are going."""
+    falling = [body for body in blocks if body.name in verdict.falling]
+    moves = [_corner_moves(body, verdict.acceleration(body.name)) for body in falling]
+    fastest = max((float(np.max(np.hypot(*move.T))) for move in moves), default=0.0)
+    reach = GHOST_MOVE * typical_size(blocks) / fastest if fastest > 0 else 0.0
+    return [
+        replace(body, vertices=body.vertices + reach * move)
+        for body, move in zip(falling, moves, strict=True)
+    ]
+
+
 def _draw_fall(
-    canvas: Canvas, verdict: Moved, blocks: Sequence[Body], longest: float, unit: str
+    canvas: Canvas,
+    verdict: Moved,
+    blocks: Sequence[Body],
+    gone: Sequence[Body],
+    longest: float,
+    unit: str,
 ) -> None:
     """Accelerations to scale, and dashed outlines of where the blocks are going."""
     falling = [body for body in blocks if body.name in verdict.falling]
     moves = np.array([verdict.acceleration(body.name) for body in falling])
     centers = np.array([body.center_of_mass for body in falling])
     draw_arrows(canvas, centers, moves[:, :2], longest, unit, style.FALL, key_at=0.5)
-    ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
-    fastest = max(float(np.max(np.hypot(*ghost.T))) for ghost in ghosts)
-    reach = GHOST_MOVE * typical_size(blocks) / fastest if fastest > 0 else 0.0
-    outlines = [body.vertices + reach * ghost for body, ghost in zip(falling, ghosts, strict=True)]
+    outlines = [body.vertices for body in gone]
     canvas.axes.add_collection(
         PolyCollection(
             outlines,

@@ -6,6 +6,7 @@ import io
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Callable
 from functools import singledispatch
 from os import PathLike, fspath
 from pathlib import Path
@@ -19,7 +20,7 @@ from drystone.common.drawn import DPI
 from drystone.common.files import write_whole
 from drystone.motion.run import Run
 from drystone.pictures.canvas import rendered
-from drystone.pictures.recording import frame_figure
+from drystone.pictures.recording import frame_figure, frames_box
 from drystone.planning.answer import Plan
 from drystone.recording.of_plan import plan_recording
 from drystone.recording.of_run import recording_of_run
@@ -33,32 +34,58 @@ STEPS_PER_SECOND = 2
 
 
 @singledispatch
-def save_film(thing: object, path: str | PathLike[str], dpi: float = DPI) -> None:
+def save_film(
+    thing: object,
+    path: str | PathLike[str],
+    dpi: float = DPI,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
     """The frames of a plan or a run, at the speed of the run; the name ends in .gif or .mp4.
 
-    DrystoneError for .mp4 without ffmpeg, TypeError for what does not move.
+    `progress` is called with (frames drawn, frames in all). DrystoneError for .mp4 without ffmpeg,
+    TypeError for what does not move.
     """
     raise TypeError(f"there is no film of a {type(thing).__name__}")
 
 
 @save_film.register(Plan)
-def _(plan: Plan, path: str | PathLike[str], dpi: float = DPI) -> None:
-    film_of(plan_recording(plan), path, dpi)
+def _(
+    plan: Plan,
+    path: str | PathLike[str],
+    dpi: float = DPI,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    film_of(plan_recording(plan), path, dpi, progress)
 
 
 @save_film.register(Run)
-def _(run: Run, path: str | PathLike[str], dpi: float = DPI) -> None:
-    film_of(recording_of_run(run), path, dpi)
+def _(
+    run: Run,
+    path: str | PathLike[str],
+    dpi: float = DPI,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
+    film_of(recording_of_run(run), path, dpi, progress)
 
 
-def film_of(recording: Recording, path: str | PathLike[str], dpi: float = DPI) -> None:
+def film_of(
+    recording: Recording,
+    path: str | PathLike[str],
+    dpi: float = DPI,
+    progress: Callable[[int, int], None] | None = None,
+) -> None:
     """The frames of a recording, those that `PER_SECOND` leaves of one that has times."""
     target = Path(fspath(path))
     ffmpeg = _ffmpeg() if target.suffix.lower() == ".mp4" else None
     frames, per_second = _chosen(recording)
-    pictures = _of_one_size(
-        [Image.open(io.BytesIO(rendered(frame_figure(recording, k), "png", dpi))) for k in frames]
-    )
+    box = frames_box(recording)
+    drawn: list[Image.Image] = []
+    for frame in frames:
+        figure = frame_figure(recording, frame, box)
+        drawn.append(Image.open(io.BytesIO(rendered(figure, "png", dpi))))
+        if progress is not None:
+            progress(len(drawn), len(frames))
+    pictures = _of_one_size(drawn)
     if ffmpeg is None:
         write_whole(target, _gif(pictures, per_second))
     else:

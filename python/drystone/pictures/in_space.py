@@ -14,7 +14,7 @@ from drystone.common.text import counted
 from drystone.equilibrium.mechanism import Moved
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
-from drystone.pictures.axonometry import View
+from drystone.pictures.axonometry import Shadow, View
 from drystone.pictures.canvas import Canvas, fitted
 from drystone.pictures.loads import draw_loads
 from drystone.pictures.order_bar import draw_order_bar
@@ -56,18 +56,19 @@ def moved_figure(verdict: Moved, unit: str) -> Figure:
     drawing = _drawing(verdict.scene)
     falling = set(verdict.falling)
     headline, _, details = str(verdict).partition("; ")
-    canvas = fitted(drawing.outlines, headline, details, key=True)
     fills = {name: style.FALLING if name in falling else style.STONE for name in verdict.names}
+    present = [outline for outline in drawing.outlines if outline.name in fills]
+    gone = _displaced(drawing, verdict, typical_size(present))
+    canvas = fitted([*drawing.outlines, *gone], headline, details, key=True)
     # Names would be under the arrows.
     draw_solids(canvas, drawing, fills, dict.fromkeys(falling, style.FALL))
-    present = [outline for outline in drawing.outlines if outline.name in fills]
     longest = min(0.12 * canvas.diagonal, 0.6 * typical_size(present))
     if verdict.forces is not None:
         points, vectors = verdict.forces.points, verdict.forces.vectors
         draw_forces(canvas, drawing, points, vectors, verdict.scene.gravity, longest)
     draw_loads(canvas, verdict.scene, fills, longest, drawing.view.flat)
     if falling:
-        _draw_fall(canvas, drawing, verdict, longest, typical_size(present), unit)
+        _draw_fall(canvas, drawing, verdict, gone, longest, unit)
     return canvas.figure
 
 
@@ -125,8 +126,27 @@ def _unfinished_figure(plan: Plan, drawing: Drawing, headline: str, work: str) -
     return canvas.figure
 
 
+def _displaced(drawing: Drawing, verdict: Moved, size: float) -> list[Shadow]:
+    """Where the falling blocks are going."""
+    falling = [body for body in drawing.bodies if body.name in verdict.falling]
+    moves = [_corner_moves(body, verdict.acceleration(body.name)) for body in falling]
+    fastest = max((float(np.max(np.linalg.norm(move, axis=1))) for move in moves), default=0.0)
+    reach = GHOST_MOVE * size / fastest if fastest > 0 else 0.0
+    found = []
+    for body, move in zip(falling, moves, strict=True):
+        corners = outline(drawing.view.flat(body.vertices + reach * move))
+        x, y = corners.mean(axis=0).tolist()
+        found.append(Shadow(body.name, False, (x, y), corners))
+    return found
+
+
 def _draw_fall(
-    canvas: Canvas, drawing: Drawing, verdict: Moved, longest: float, size: float, unit: str
+    canvas: Canvas,
+    drawing: Drawing,
+    verdict: Moved,
+    gone: Sequence[Shadow],
+    longest: float,
+    unit: str,
 ) -> None:
     """Accelerations to scale, and dashed outlines of where the blocks are going."""
     falling = [body for body in drawing.bodies if body.name in verdict.falling]
@@ -134,13 +154,7 @@ def _draw_fall(
     origins = np.array([body.center_of_mass for body in falling])
     flat = drawing.view.flat
     draw_arrows(canvas, flat(origins), flat(moves[:, :3]), longest, unit, style.FALL, key_at=0.5)
-    ghosts = [_corner_moves(body, move) for body, move in zip(falling, moves, strict=True)]
-    fastest = max(float(np.max(np.linalg.norm(ghost, axis=1))) for ghost in ghosts)
-    reach = GHOST_MOVE * size / fastest if fastest > 0 else 0.0
-    moved = [
-        flat(body.vertices + reach * ghost) for body, ghost in zip(falling, ghosts, strict=True)
-    ]
-    draw_dashed(canvas, [outline(points) for points in moved])
+    draw_dashed(canvas, [shadow.vertices for shadow in gone])
 
 
 def _corner_moves(body: Solid, acceleration: NDArray[np.float64]) -> NDArray[np.float64]:

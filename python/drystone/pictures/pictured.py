@@ -16,7 +16,7 @@ from drystone.motion.world import World
 from drystone.pictures.canvas import drawing_on
 from drystone.pictures.figures import plan_figure, scene_figure, verdict_figure
 from drystone.pictures.limits import escape_figure, limit_figure, margin_figure
-from drystone.pictures.recording import frame_figure
+from drystone.pictures.recording import frame_figure, frames_box
 from drystone.pictures.settled import settled_figure
 from drystone.planning.answer import Plan
 from drystone.recording.of_run import recording_of_run
@@ -45,7 +45,8 @@ figure_of.register(Plan, plan_figure)
 @figure_of.register(Run)
 def _(run: Run) -> Figure:
     """Where the bodies are at the end."""
-    return frame_figure(recording_of_run(run), run.steps)
+    recording = recording_of_run(run)
+    return frame_figure(recording, run.steps, frames_box(recording, [run.steps]))
 
 
 @figure_of.register(World)

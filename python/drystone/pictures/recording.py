@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
@@ -11,9 +12,10 @@ from numpy.typing import NDArray
 
 from drystone.pictures import style
 from drystone.pictures.arrows import draw_arrows
-from drystone.pictures.canvas import Canvas, bounds, fitted
-from drystone.pictures.frames import REACH, fills_in, note_of, reference_force, sampled
-from drystone.pictures.recording_in_space import solid_frame
+from drystone.pictures.axonometry import Shadow
+from drystone.pictures.canvas import Canvas, Outlined, fitted
+from drystone.pictures.frames import Box, box_around, fills_in, note_of, reference_force
+from drystone.pictures.recording_in_space import solid_box, solid_frame
 from drystone.pictures.shapes import (
     draw_absent,
     draw_blocks,
@@ -22,7 +24,6 @@ from drystone.pictures.shapes import (
     draw_labels,
     typical_size,
 )
-from drystone.recording.contract import ABSENT
 from drystone.recording.recording import FrameForces, Recording, own_frame
 from drystone.scene import Body
 
@@ -30,15 +31,29 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def frame_figure(recording: Recording, frame: int) -> Figure:
-    """Bodies by state, forces to one scale; IndexError if there is no such frame."""
+def frames_box(recording: Recording, frames: Sequence[int] | None = None) -> Box:
+    """What the pictures of these frames show, or those of all."""
+    if recording.dimension == 3:
+        return solid_box(recording, frames)
+    return box_around(recording, partial(_moved, recording), frames)
+
+
+def frame_figure(recording: Recording, frame: int, box: Box | None = None) -> Figure:
+    """Bodies by state, forces to one scale; IndexError if there is no such frame.
+
+    `box` is what it shows, by default `frames_box` of all frames. It takes longer than a picture:
+    for many of them it is to be found once.
+    """
     frames = len(recording.states)
     if not 0 <= frame < frames:
         raise IndexError(f"frame {frame}: there are frames 0 to {frames - 1}")
+    box = frames_box(recording) if box is None else box
     if recording.dimension == 3:
-        return solid_frame(recording, frame)
+        return solid_frame(recording, frame, box)
     bodies = _moved(recording, frame)
-    canvas = fitted(_view(recording), recording.title, note_of(recording, frame), key=True)
+    span: list[Outlined] = [body for body in bodies if body.fixed]
+    span.append(Shadow("", False, (0.0, 0.0), np.array(box)))
+    canvas = fitted(span, recording.title, note_of(recording, frame), key=True)
     fills = fills_in(recording, frame)
     draw_fixed(canvas, bodies)
     if recording.kind == "plan":
@@ -70,23 +85,6 @@ def _placed(body: Body, x: float, y: float, angle: float) -> NDArray[np.float64]
     turned = own_frame(body) @ np.array([[cos, sin], [-sin, cos]])
     corners: NDArray[np.float64] = turned + np.array([x, y])
     return corners
-
-
-def _view(recording: Recording) -> list[Body]:
-    """Bodies that span the view: where they are in any frame, but not far away."""
-    first = _moved(recording, 0)
-    shown = [body.vertices for body in first if not body.fixed] or [b.vertices for b in first]
-    if recording.poses is None or not shown:
-        return first
-    low, high = bounds(shown)
-    reach = REACH * float(np.max(high - low))
-    later = [
-        replace(body, vertices=np.clip(body.vertices, low - reach, high + reach))
-        for frame in sampled(recording)
-        for body, state in zip(_moved(recording, frame), recording.states[frame], strict=True)
-        if not body.fixed and state != ABSENT
-    ]
-    return first + later
 
 
 def _draw_forces(canvas: Canvas, recording: Recording, forces: FrameForces, frame: int) -> None:

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
-from drystone.pictures.axonometry import Shadow, View, movable_of, placed
+from drystone.pictures.axonometry import Shadow, View, placed
 from drystone.pictures.canvas import Canvas, fitted
-from drystone.pictures.frames import REACH, fills_in, note_of, reference_force, sampled
+from drystone.pictures.frames import Box, box_around, fills_in, note_of, reference_force
 from drystone.pictures.in_space import draw_forces
 from drystone.pictures.shapes import typical_size
 from drystone.pictures.solids import Drawing, draw_solids
-from drystone.recording.contract import ABSENT
 from drystone.recording.recording import FrameForces, Recording
 from drystone.scene import Solid
 
@@ -23,15 +22,19 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def solid_frame(recording: Recording, frame: int) -> Figure:
+def solid_box(recording: Recording, frames: Sequence[int] | None) -> Box:
+    """Around the movable bodies in these frames."""
+    return box_around(recording, partial(_moved, recording), frames)
+
+
+def solid_frame(recording: Recording, frame: int, box: Box) -> Figure:
     """Bodies by state, forces to one scale."""
     first = _moved(recording, 0)
     view = View.of(first, recording.gravity)
-    box = _box(recording)
     drawing = Drawing.of(_moved(recording, frame), view, box)
-    # What spans the view is the same in all frames: the first one, and all that is in the box.
+    # What spans the view is the same in all frames with one box: fixed bodies, and what is in it.
     corners = np.array(list(itertools.product(*np.stack(box, axis=1))))
-    span = [*Drawing.of(first, view, box).outlines]
+    span = [shadow for shadow in drawing.outlines if shadow.fixed or recording.poses is None]
     if recording.poses is not None:
         span.append(Shadow("", False, (0.0, 0.0), view.flat(corners)))
     canvas = fitted(span, recording.title, note_of(recording, frame), key=True)
@@ -49,24 +52,6 @@ def _moved(recording: Recording, frame: int) -> Sequence[Solid]:
         placed(body, pose[:3], pose[3:])
         for body, pose in zip(bodies, recording.poses[frame].tolist(), strict=True)
     ]
-
-
-def _box(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Around the movable bodies in all frames, but not far away."""
-    bodies = _moved(recording, 0)
-    start = np.concatenate([body.vertices for body in movable_of(bodies)])
-    low, high = start.min(axis=0), start.max(axis=0)
-    reach = REACH * float(np.max(high - low))
-    points = [start]
-    for frame in sampled(recording):
-        states = recording.states[frame].tolist()
-        points += [
-            np.clip(body.vertices, low - reach, high + reach)
-            for body, state in zip(_moved(recording, frame), states, strict=True)
-            if not body.fixed and state != ABSENT
-        ]
-    every = np.concatenate(points)
-    return every.min(axis=0), every.max(axis=0)
 
 
 def _draw_forces(

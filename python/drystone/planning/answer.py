@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS, Cone
-from drystone.common.drawn import DPI, Paged, is_film
+from drystone.common.drawn import DPI, Paged
+from drystone.common.files import FILMS, JSON, PAGE, PICTURES, ending_of
 from drystone.common.json_text import save_json, write_json
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.common.units import quantity
@@ -44,6 +45,10 @@ STRONG_ENDINGS = {
     "whole_falls": "No order: the complete assembly need not stand",
 }
 """The same where every structure must stand."""
+
+
+MOST_HELD = 8
+"""Blocks that may be held at a time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +156,8 @@ class Plan(Paged):
     """The horizontal acceleration, in g, that every structure had to bear."""
     strong: bool = False
     """Whether every structure had to be one that must stand."""
+    hold: int = 0
+    """How many blocks might be held at a time."""
     _margins: list[float] = field(default_factory=list, repr=False)
 
     @classmethod
@@ -162,6 +169,7 @@ class Plan(Paged):
         cones: tuple[int, str],
         margin: float = 0.0,
         strong: bool = False,
+        hold: int = 0,
     ) -> Plan:
         way_out = tuple(
             tuple(Move(way[: scene.dimension], length) for way, length in moves)
@@ -193,6 +201,7 @@ class Plan(Paged):
             cones,
             margin,
             strong,
+            hold,
         )
 
     def __bool__(self) -> bool:
@@ -222,6 +231,15 @@ class Plan(Paged):
     def margins_are_known(self) -> bool:
         """Whether `margins` have been computed."""
         return bool(self._margins)
+
+    @property
+    def next_hold(self) -> int | None:
+        """The `hold` with which there may be an order where none exists: one more than was allowed.
+        None if there is an order, if it is not known that there is none, or if holding is no help:
+        with a margin, with `strong`, and at most 8 blocks are held."""
+        alone = self.margin == 0 and not self.strong
+        helps = self.status == "no_order" and alone and self.hold < MOST_HELD
+        return self.hold + 1 if helps else None
 
     @property
     def hold_steps(self) -> list[tuple[str, str, int]]:
@@ -287,7 +305,10 @@ class Plan(Paged):
         if self.blocked:
             stuck = (f"{one.name} (blocked by {shorten(one.by)})" for one in self.blocked)
             text += f"; cannot leave: {shorten(stuck)}"
-        return text + "." + self._said_of_holds()
+        text += "." + self._said_of_holds()
+        if self.next_hold is not None:
+            text += f"\nIf blocks may be held there may be an order: hold={self.next_hold}."
+        return text
 
     def __repr__(self) -> str:
         return f"<Plan: {str(self).splitlines()[0]}>"
@@ -330,6 +351,7 @@ class Plan(Paged):
                 else {}
             ),
             **({"strong": True} if self.strong else {}),
+            "hold": self.hold,
             "hold_steps": [list(step) for step in self.hold_steps],
             "directions": [list(direction) for direction in self.directions],
             "moves": [
@@ -360,9 +382,12 @@ class Plan(Paged):
     def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
         """Write everything but the scene (.json), a page to step through (.html), a film (.gif,
         .mp4) or a picture (.svg, .pdf, .png)."""
-        if is_film(path):
+        ending = ending_of(path, (JSON, *PICTURES, PAGE, *FILMS))
+        if ending == JSON:
+            save_json(self, path)
+        elif ending in FILMS:
             later.film(self, path, dpi)
-        elif not save_json(self, path):
+        else:
             self.draw(path, dpi=dpi)
 
     def view(

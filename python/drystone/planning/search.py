@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Literal, TypeAlias, get_args
 
 from drystone import _core
 from drystone.common.cones import CONES, FACETS, INSCRIBED, Pyramid, core_cones
-from drystone.common.numbers import number, whole
+from drystone.common.numbers import (
+    FloatRows,
+    number,
+    optional_number,
+    optional_whole,
+    vector,
+    whole,
+)
 from drystone.planning.answer import Plan
 from drystone.planning.robust import robust
 from drystone.scene import Scene
@@ -38,7 +45,7 @@ def plan(
     threads: int | None = None,
     hold: int = 0,
     clear_path: bool = False,
-    directions: Sequence[Sequence[float]] | None = None,
+    directions: FloatRows | None = None,
     *,
     margin: float = 0.0,
     order: OrderOfPlan = "any",
@@ -121,12 +128,17 @@ def plan(
     >>> ds.plan(ds.scenes.arch(7)).status, ds.plan(ds.scenes.arch(7), hold=1).status
     ('no_order', 'found')
     """
-    counts = ((hold, "hold"), (node_limit, "node_limit"), (threads, "threads"))
-    for count, what in (*counts, (moves, "moves"), (together, "together")):
-        if count is not None:
-            whole(count, what)
-    if time_limit is not None:
-        number(time_limit, "time_limit")
+    hold, moves, together = (
+        whole(count, what)
+        for count, what in ((hold, "hold"), (moves, "moves"), (together, "together"))
+    )
+    node_limit = optional_whole(node_limit, "node_limit")
+    threads = optional_whole(threads, "threads")
+    time_limit = optional_number(time_limit, "time_limit")
+    if time_limit == math.inf:
+        time_limit = None
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function, not {progress!r:.80}")
     if hold < 0:
         raise ValueError(f"hold is {hold}: it must be zero or more")
     if order not in ORDERS:
@@ -158,14 +170,12 @@ def plan(
             threads,
             cones,
             hold,
-            ([_way(scene, way) for way in directions or ()], moves, together)
-            if clear_path
-            else None,
+            (_ways(scene, directions), moves, together) if clear_path else None,
             None if obstacles is None else scene_of(obstacles)._core,
             with_margin,
             strong,
         )
-        return Plan._of(core, test, scene, cones, with_margin, strong)
+        return Plan._of(core, test, scene, cones, with_margin, strong, hold)
 
     return robust(planned, least) if order == "robust" else planned(least)
 
@@ -173,7 +183,7 @@ def plan(
 def _check_ways(
     scene: Scene,
     clear_path: bool,
-    directions: Sequence[Sequence[float]] | None,
+    directions: FloatRows | None,
     moves: int,
     together: int,
     obstacles: Scene | None,
@@ -200,12 +210,17 @@ def _check_ways(
         )
 
 
-def _way(scene: Scene, way: Sequence[float]) -> tuple[float, float, float]:
-    """In the plane z is zero."""
-    if len(way) != scene.dimension:
-        raise ValueError(f"directions: {tuple(way)} must have {scene.dimension} numbers")
-    x, y, z = (*way, 0.0)[:3]
-    return x, y, z
+def _ways(scene: Scene, directions: FloatRows | None) -> list[tuple[float, float, float]]:
+    """Vectors of three numbers; in the plane z is zero."""
+    try:
+        ways = [] if directions is None else list(directions)
+    except TypeError:
+        raise TypeError(f"directions must be a list of vectors, not {directions!r:.80}") from None
+    found = []
+    for way in ways:
+        x, y, *z = vector(way, scene.dimension, "directions: each", error=ValueError)
+        found.append((x, y, z[0] if z else 0.0))
+    return found
 
 
 def _stability_test(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drystone.common.text import shown
+from drystone.common.text import place, shown
 from drystone.common.units import quantity
 from drystone.recording.contract import FALLING, PRESENT
 from drystone.recording.recording import Recording
@@ -43,8 +43,8 @@ def _said_of_load(load: Load) -> str:
     size = math.hypot(*load.force)
     parts = []
     if size > 0:
-        way = ", ".join(f"{x / size + 0.0:.3g}" for x in load.force)
-        parts.append(f"{quantity(size, 'N')} towards ({way})")
+        way = place((x / size for x in load.force), 3)
+        parts.append(f"{quantity(size, 'N')} towards {way}")
     moment = load.moment if isinstance(load.moment, tuple) else (load.moment,)
     if any(moment):
         parts.append(f"a moment of {quantity(math.hypot(*moment), 'N m')}")

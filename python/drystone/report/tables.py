@@ -8,7 +8,7 @@ from functools import singledispatch
 from typing import TYPE_CHECKING
 
 from drystone.common.numbers import whole
-from drystone.common.text import MOST_ROWS, shown
+from drystone.common.text import MOST_ROWS, digits, place, shown
 from drystone.common.units import scale_of
 from drystone.equilibrium.limits import Limit, LimitEnd
 from drystone.equilibrium.margins import Margin
@@ -29,10 +29,6 @@ IN_JSON = "--json lists all"
 
 IN_PYTHON = "rows= shows more"
 """The same in Python."""
-
-NOTHING = 1e-9
-"""A number smaller than this share of the largest of its kind is printed as 0: forces balance every
-block to 1e-9, so that it says nothing."""
 
 WIDE = 1_000_000
 """Columns of what is no terminal: a program that reads lines wants them whole."""
@@ -122,14 +118,15 @@ def _force_table(verdict: Verdict, rows: int, more: str) -> Table:
     metres = [f"{axis} [m]" for axis in axes]
     forces = verdict.forces[:rows]
     largest = max((force.normal_force for force in forces), default=0.0)
+    furthest = max((abs(x) for force in forces for x in force.point), default=0.0)
     size, unit = scale_of([largest], "N")
     made = table("contact", *metres, f"normal [{unit}]", f"tangential [{unit}]")
     for force in forces:
         made.add_row(
             f"{shown(force.a)} - {shown(force.b)}",
-            *(f"{value:.4g}" for value in force.point),
+            *(digits(value, furthest) for value in force.point),
             *(
-                _cell(value / size, largest / size)
+                digits(value / size, largest / size)
                 for value in (force.normal_force, force.tangential_force)
             ),
         )
@@ -170,8 +167,8 @@ def joints_table(settled: Settled, rows: int = MOST_ROWS, more: str = IN_JSON) -
         made.add_row(
             f"{shown(joint.a)} - {shown(joint.b)}",
             joint.opening,
-            *(_cell(value, furthest) for value in joint.at),
-            *(_cell(value / size, largest) for value in (joint.opens, joint.slides)),
+            *(digits(value, furthest) for value in joint.at),
+            *(digits(value / size, largest) for value in (joint.opens, joint.slides)),
         )
     return cut(made, len(settled.joints), rows, more)
 
@@ -179,12 +176,7 @@ def joints_table(settled: Settled, rows: int = MOST_ROWS, more: str = IN_JSON) -
 def _cells(values: NDArray[np.float64]) -> list[str]:
     """The numbers of one block's motion."""
     largest = float(abs(values).max(initial=0.0))
-    return [_cell(value, largest) for value in values.tolist()]
-
-
-def _cell(value: float, largest: float) -> str:
-    """Four digits; what rounding left beside the largest number of its kind is 0."""
-    return f"{value:.4g}" if abs(value) > NOTHING * largest else "0"
+    return [digits(value, largest) for value in values.tolist()]
 
 
 def plan_table(plan: Plan, rows: int) -> Table:
@@ -192,7 +184,7 @@ def plan_table(plan: Plan, rows: int) -> Table:
     made = table("step", "remove", "held", "towards", left=("remove", "held", "towards"))
     for k, name in enumerate(plan.order[:rows]):
         held = " ".join(shown(other) for other in plan.holds[k]) if plan.holds else ""
-        way = ", ".join(f"{x:.3g}" for x in plan.directions[k]) if plan.directions else ""
+        way = place(plan.directions[k], 3) if plan.directions else ""
         made.add_row(str(k + 1), shown(name), held, way)
     return cut(made, len(plan.order), rows, IN_PYTHON)
 

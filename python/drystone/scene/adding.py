@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from os import PathLike
-from typing import TYPE_CHECKING, TypedDict, TypeVar
+from typing import TYPE_CHECKING, TypeAlias, TypedDict, TypeVar
 from warnings import warn
 
 from drystone import _core
-from drystone.common.numbers import optional_name, pair, quaternion, triple
+from drystone.common.numbers import (
+    Floats,
+    flag,
+    number,
+    optional_name,
+    optional_number,
+    pair,
+    quaternion,
+    triple,
+)
 from drystone.scene import weight
 from drystone.scene.weight import Inertia
 
@@ -20,7 +29,7 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 
-Point = Sequence[float]
+Point: TypeAlias = Floats
 """Two numbers (x, y), in space three (x, y, z), in metres unless said otherwise: a tuple, a list or
 an array."""
 
@@ -53,7 +62,7 @@ class Adding:
         friction: float | None = None,
         fixed: bool = False,
         *,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -75,17 +84,18 @@ class Adding:
         already taken. Bodies that overlap are an error of the first question asked of the scene.
         """
         if self.dimension == 2:
-            if tuple(orientation) != UPRIGHT:
+            if orientation is not UPRIGHT and quaternion(orientation) != UPRIGHT:
                 raise _core.SceneError("a box in the plane is turned by angle=, not orientation=")
-            _require_radians(angle)
+            turn = number(angle, "angle")
+            _require_radians(turn)
             corner, sides = pair(center, "center"), pair(size, "size")
             own = weight.in_plane(mass, center_of_mass, inertia)
             return self._put(
                 lambda core: core.add_box(
-                    corner, sides, angle, optional_name(name), density, friction, fixed, own
+                    corner, sides, turn, optional_name(name), *_stuff(density, friction, fixed), own
                 )
             )
-        if angle != 0.0:
+        if number(angle, "angle") != 0.0:
             raise _core.SceneError("a box in space is turned by orientation=, not angle=")
         return self._put(
             lambda core: core.add_cuboid(
@@ -93,9 +103,7 @@ class Adding:
                 triple(size, "size"),
                 quaternion(orientation),
                 optional_name(name),
-                density,
-                friction,
-                fixed,
+                *_stuff(density, friction, fixed),
                 weight.in_space(mass, center_of_mass, inertia),
             )
         )
@@ -127,7 +135,7 @@ class Adding:
         own = weight.in_plane(mass, center_of_mass, inertia)
         return self._put(
             lambda core: core.add_polygon(
-                corners, optional_name(name), density, friction, fixed, own
+                corners, optional_name(name), *_stuff(density, friction, fixed), own
             )
         )
 
@@ -140,7 +148,7 @@ class Adding:
         fixed: bool = False,
         *,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -174,7 +182,7 @@ class Adding:
         fixed: bool = False,
         *,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -196,9 +204,7 @@ class Adding:
                 triple(position, "position"),
                 quaternion(orientation),
                 optional_name(name),
-                density,
-                friction,
-                fixed,
+                *_stuff(density, friction, fixed),
                 weight.in_space(mass, center_of_mass, inertia),
             )
         )
@@ -213,7 +219,7 @@ class Adding:
         fixed: bool = False,
         *,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         mass: float | None = None,
         center_of_mass: Point | None = None,
         inertia: Inertia | None = None,
@@ -237,9 +243,7 @@ class Adding:
                 triple(position, "position"),
                 quaternion(orientation),
                 optional_name(name),
-                density,
-                friction,
-                fixed,
+                *_stuff(density, friction, fixed),
                 weight.in_space(mass, center_of_mass, inertia),
             )
         )
@@ -248,7 +252,7 @@ class Adding:
         self,
         mesh: str | PathLike[str] | Trimesh,
         position: Point = ORIGIN,
-        orientation: Sequence[float] = UPRIGHT,
+        orientation: Floats = UPRIGHT,
         scale: float | tuple[float, float, float] | None = None,
         name: str | None = None,
         density: float = 1.0,
@@ -303,7 +307,7 @@ class Adding:
         for message in part.messages:
             warn(f"{part.name}: {message}", meshes.MeshWarning, stacklevel=2)
         options: _Options = {
-            "density": density * part.density_factor,
+            "density": number(density, "density") * part.density_factor,
             "friction": friction,
             "fixed": fixed,
             "position": position,
@@ -324,15 +328,24 @@ class _Options(TypedDict):
     friction: float | None
     fixed: bool
     position: Point
-    orientation: Sequence[float]
+    orientation: Floats
     mass: float | None
     center_of_mass: Point | None
     inertia: Inertia | None
 
 
+def _stuff(density: float, friction: float | None, fixed: bool) -> tuple[float, float | None, bool]:
+    """What a body is of, as the core takes it."""
+    return (
+        number(density, "density"),
+        optional_number(friction, "friction"),
+        flag(fixed, "fixed"),
+    )
+
+
 def _require_radians(angle: float) -> None:
     """A hint where an angle looks like one in degrees."""
-    if isinstance(angle, float | int) and math.tau < abs(angle) < math.inf:
+    if math.tau < abs(angle) < math.inf:
         warn(
             f"angle is {angle:g} radians, more than a full turn: if these are degrees, "
             "give math.radians of them",
@@ -351,18 +364,18 @@ def _each(values: Iterable[_T], what: str) -> Iterable[_T]:
 def _surface(
     vertices: ArrayLike, triangles: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
-    """Arrays (k, 3) and (n, 3); SceneError for what is none."""
+    """Arrays (k, 3) and (n, 3); TypeError or SceneError for what is none."""
     import numpy as np
 
-    try:
-        points, numbers = np.asarray(vertices, dtype=np.float64), np.asarray(triangles)
-    except (TypeError, ValueError):
-        raise _core.SceneError("vertices must be an array of three coordinates each") from None
+    from drystone.common.arrays import floats
+
+    points = floats(vertices, "vertices", _core.SceneError, "be an array of three coordinates each")
+    corners = floats(triangles, "triangles", _core.SceneError, "be numbers of vertices")
     if points.ndim != 2 or points.shape[1] != 3:
         raise _core.SceneError(f"vertices must be (k, 3), not {points.shape}")
-    whole = numbers.ndim == 2 and numbers.shape[1] == 3 and np.issubdtype(numbers.dtype, np.integer)
-    if not whole or ((numbers < 0) | (numbers >= len(points))).any():
+    fits = corners.ndim == 2 and corners.shape[1] == 3 and (corners == np.floor(corners)).all()
+    if not fits or ((corners < 0) | (corners >= len(points))).any():
         raise _core.SceneError(
             f"triangles must be (n, 3) numbers of vertices, each from 0 to {len(points) - 1}"
         )
-    return points, numbers.astype(np.uint32)
+    return points, corners.astype(np.uint32)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from drystone import _core
-from drystone.common.text import place
+from drystone.common.text import digits, place
 
 if TYPE_CHECKING:
     import numpy as np
@@ -153,7 +153,8 @@ class Contact:
 
     def __repr__(self) -> str:
         where = f"{self.a!r} - {self.b!r} at {place(self.point)}"
-        how = f"normal {place(self.normal)}, gap {self.gap:.3g} m"
+        gap = digits(self.gap, max(map(abs, self.point)), 3)
+        how = f"normal {place(self.normal)}, gap {gap} m"
         return f"<Contact: {where}, {how}; {self.feature}>"
 
 

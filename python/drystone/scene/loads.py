@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from drystone import _core
-from drystone.common.numbers import number, vector
+from drystone.common.numbers import Floats, number, vector
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ def axial(numbers: Sequence[float]) -> float | tuple[float, float, float]:
 
 
 def turning(
-    value: float | Sequence[float] | None, dimension: int, what: str = "moment"
+    value: float | Floats | None, dimension: int, what: str = "moment"
 ) -> tuple[float, float, float]:
     """A moment or a turn as the core takes it: three numbers, of which the plane uses the last."""
     if value is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,14 +11,22 @@ from drystone import _core
 from drystone.common import later
 from drystone.common.drawn import Paged
 from drystone.common.files import write_whole
-from drystone.common.numbers import name_of, number, optional_name, vector
+from drystone.common.numbers import (
+    Floats,
+    name_of,
+    number,
+    optional_name,
+    optional_number,
+    vector,
+    whole,
+)
 from drystone.common.text import counted
 from drystone.scene.adding import Adding, Point
 from drystone.scene.body import Body, Contact, Solid, snapshot
 from drystone.scene.loads import Load, listed, turning
 from drystone.scene.near_miss import NearMiss
 from drystone.scene.overlaps import Overlap
-from drystone.scene.settlements import Settlement
+from drystone.scene.settlements import Settlement, require_small
 from drystone.scene.settlements import listed as listed_settlements
 
 if TYPE_CHECKING:
@@ -70,13 +78,17 @@ class Scene(Adding, Paged):
 
         Raises SceneError if `dimension` is neither 2 nor 3 or a number is not usable.
         """
-        if dimension not in (2, 3):
+        if whole(dimension, "dimension") not in (2, 3):
             raise _core.SceneError(
                 f"dimension must be 2 (the plane) or 3 (space), not {dimension!r}"
             )
         if gravity is None:
             gravity = (0.0, -9.81) if dimension == 2 else (0.0, 0.0, -9.81)
-        self._core = _core.Scene(vector(gravity, dimension, "gravity"), friction, contact_tolerance)
+        self._core = _core.Scene(
+            vector(gravity, dimension, "gravity"),
+            number(friction, "friction"),
+            optional_number(contact_tolerance, "contact_tolerance"),
+        )
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Self:
@@ -93,7 +105,7 @@ class Scene(Adding, Paged):
         body: str,
         force: Point | None = None,
         at: Point | None = None,
-        moment: float | Sequence[float] | None = None,
+        moment: float | Floats | None = None,
         name: str | None = None,
     ) -> str:
         """Put a permanent load on a body and return the load's name.
@@ -154,7 +166,7 @@ class Scene(Adding, Paged):
         self,
         body: str,
         displacement: Point | None = None,
-        rotation: float | Sequence[float] | None = None,
+        rotation: float | Floats | None = None,
         at: Point | None = None,
     ) -> None:
         """Prescribe a small displacement of a support, which `check` answers.
@@ -170,7 +182,8 @@ class Scene(Adding, Paged):
         equilibrium is that of the shape before, so `plan`, `limit`, `margin` and `Structure` take
         no notice. `simulate` and `World` refuse a scene with settlements.
 
-        Raises SceneError for an unknown body, one that is not fixed, or wrong numbers.
+        Raises SceneError for an unknown body, one that is not fixed, or wrong numbers, and warns of
+        a displacement of more than a tenth of the scene's size.
 
         >>> import drystone as ds
         >>> scene = ds.Scene(friction=0.5)
@@ -183,13 +196,15 @@ class Scene(Adding, Paged):
         [('beam', (-1.5, 0.0)), ('beam', (2.0, 0.0))]
         """
         n = self.dimension
+        moved = (0.0,) * n if displacement is None else vector(displacement, n, "displacement")
         _core.add_settlement(
             self._core,
             name_of(body),
-            [0.0] * n if displacement is None else vector(displacement, n, "displacement"),
+            moved,
             turning(rotation, n, "rotation"),
             None if at is None else vector(at, n, "at"),
         )
+        require_small(moved, self.bodies)
 
     def without_settlements(self) -> Scene:
         """The same scene with all supports where they are."""
@@ -205,7 +220,7 @@ class Scene(Adding, Paged):
 
         Blocks reach from -`depth` / 2 to `depth` / 2 along y; masses stay what they are.
         """
-        return Scene._of(self._core.extruded(depth))
+        return Scene._of(self._core.extruded(number(depth, "depth")))
 
     def parted(self) -> Scene:
         """The same scene with overlaps taken back, for what was drawn or measured with them.
@@ -264,7 +279,10 @@ class Scene(Adding, Paged):
         be written.
         """
         if later.lies(Path(path)):
-            raise _core.SceneError(f"{fspath(path)}: a scene is JSON: let its name end in .json")
+            raise _core.SceneError(
+                f"{fspath(path)}: a scene is saved as JSON: let its name end in .json "
+                "(draw makes pictures and pages)"
+            )
         write_whole(Path(path), self.to_json().encode())
 
     def to_json(self) -> str:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from warnings import warn
 
 from drystone import _core
+from drystone.scene.body import Body, Solid
 from drystone.scene.loads import axial
 
 
@@ -28,3 +32,17 @@ def listed(scene: _core.Scene) -> tuple[Settlement, ...]:
         Settlement(body, displacement, axial(rotation), at)
         for body, displacement, rotation, at in _core.settlements(scene)
     )
+
+
+def require_small(displacement: Sequence[float], bodies: Sequence[Body | Solid]) -> None:
+    """A hint where a displacement looks like one in millimetres."""
+    corners = [corner for body in bodies for corner in body.vertices.tolist()]
+    size = max((max(xs) - min(xs) for xs in zip(*corners, strict=True)), default=0.0)
+    moved = math.hypot(*displacement)
+    if moved > 0.1 * size:
+        warn(
+            f"the displacement is {moved:g} m, and the whole scene {size:g} m wide: a settlement "
+            "is small, and in metres",
+            UserWarning,
+            stacklevel=3,
+        )

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from drystone import _core
-from drystone.common.numbers import number, pair, triple
+from drystone.common.numbers import Floats, number, optional_number, pair, triple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,23 +19,23 @@ _Rows: TypeAlias = tuple[tuple[float, float, float], ...]
 
 
 def in_plane(
-    mass: float | None, center_of_mass: Sequence[float] | None, inertia: Inertia | None
+    mass: float | None, center_of_mass: Floats | None, inertia: Inertia | None
 ) -> tuple[float | None, tuple[float, float] | None, float | None]:
     """The three for a body in the plane; SceneError naming what is not usable."""
     center = None if center_of_mass is None else pair(center_of_mass, "center_of_mass")
     moment = None
     if inertia is not None:
         moment = number(inertia, "inertia in the plane", "a number (kg m^2)")
-    return mass, center, moment
+    return optional_number(mass, "mass"), center, moment
 
 
 def in_space(
-    mass: float | None, center_of_mass: Sequence[float] | None, inertia: Inertia | None
+    mass: float | None, center_of_mass: Floats | None, inertia: Inertia | None
 ) -> tuple[float | None, tuple[float, float, float] | None, _Rows | None]:
     """The three for a body in space; SceneError naming what is not usable."""
     center = None if center_of_mass is None else triple(center_of_mass, "center_of_mass")
     return (
-        mass,
+        optional_number(mass, "mass"),
         center,
         None if inertia is None else _rows(inertia),
     )

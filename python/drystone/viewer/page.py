@@ -13,7 +13,7 @@ from pathlib import Path
 
 from drystone import _core
 from drystone.common import later
-from drystone.common.files import write_whole
+from drystone.common.files import PAGE, PICTURES, ending_of, write_whole
 from drystone.recording import budget
 from drystone.recording.recording import Recording
 
@@ -48,10 +48,8 @@ class Page:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the page; the name ends in .html. The file is replaced whole or not at all."""
-        target = Path(fspath(path))
-        if target.suffix.lower() != ".html":
-            raise ValueError(f"a page's name ends in .html, not {target.suffix or 'nothing'!r}")
-        write_whole(target, self.html().encode())
+        ending_of(path, (PAGE,))
+        write_whole(Path(path), self.html().encode())
 
     def show(self) -> None:
         """Show the page: below the cell of a notebook, from a script in the browser."""
@@ -70,12 +68,14 @@ class Page:
         """
         from drystone import pictures
 
+        ending_of(f"frame{suffix}", PICTURES)
         target = Path(fspath(folder))
         target.mkdir(parents=True, exist_ok=True)
         written = []
+        box = pictures.frames_box(self.recording)
         for frame in range(len(self.recording.states)) if frames is None else frames:
             path = target / f"frame-{frame:05}{suffix}"
-            pictures.save(pictures.frame_figure(self.recording, frame), path)
+            pictures.save(pictures.frame_figure(self.recording, frame, box), path)
             written.append(path)
         return written
 

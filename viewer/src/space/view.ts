@@ -71,32 +71,56 @@ export function boxOf(film: Film): [Vector3, Vector3] {
     const shown = movable.length > 0 ? movable : every;
     if (shown.length === 0) return [new Vector3(0, 0, 0), new Vector3(1, 1, 1)];
     const [low, high] = boxIn(film, 0, shown);
-    const size = Math.max(...high.clone().sub(low).toArray());
+    const fixed = boxIn(film, 0, every);
+    const swept: [Vector3, Vector3] = [low.clone(), high.clone()];
     const stride = Math.max(1, Math.floor(film.count / SAMPLES));
-    const [far, wide] = [low.clone(), high.clone()];
-    const reach = MOTION_REACH * size;
     for (let frame = stride; frame < film.count && film.times; frame += stride) {
         const there = shown.filter((body) => film.state(frame, body) !== State.absent);
-        widen(far, wide, boxIn(film, frame, there), low, high, reach);
+        const now = boxIn(film, frame, there);
+        swept[0].min(now[0]);
+        swept[1].max(now[1]);
     }
-    const [kept, grown] = [far.clone(), wide.clone()];
-    if (movable.length > 0)
-        widen(far, wide, boxIn(film, 0, every), kept, grown, FIXED_REACH * size);
-    return [far, wide];
+    let box: [Vector3, Vector3] = [low, high];
+    // First how far it falls, then as far beside it.
+    for (let turn = 0; turn < 2; turn++) {
+        const limit = asFarAsItFalls(grown([low, high], MOTION_REACH * sizeOf(box)), fixed, film);
+        box = joined([low, high], swept, limit);
+    }
+    return movable.length > 0 ? joined(box, fixed, grown(box, FIXED_REACH * sizeOf(box))) : box;
 }
 
-/** Makes the box from `far` to `wide` hold another, as far as it reaches beyond low and high. */
-function widen(
-    far: Vector3,
-    wide: Vector3,
+function sizeOf([low, high]: [Vector3, Vector3]): number {
+    return Math.max(...high.clone().sub(low).toArray());
+}
+
+function grown([low, high]: [Vector3, Vector3], by: number): [Vector3, Vector3] {
+    return [low.clone().subScalar(by), high.clone().addScalar(by)];
+}
+
+/** The limit, but down to where fixed bodies are: what falls on them is seen to land. */
+function asFarAsItFalls(
+    [low, high]: [Vector3, Vector3],
+    fixed: [Vector3, Vector3],
+    film: Film,
+): [Vector3, Vector3] {
+    const pull = new Vector3(...film.gravity);
+    for (const axis of ["x", "y", "z"] as const) {
+        if (pull[axis] < 0) low[axis] = Math.min(low[axis], fixed[0][axis]);
+        if (pull[axis] > 0) high[axis] = Math.max(high[axis], fixed[1][axis]);
+    }
+    return [low, high];
+}
+
+/** A box that holds one, and of another what is within the limit. */
+function joined(
+    one: [Vector3, Vector3],
     other: [Vector3, Vector3],
-    low: Vector3,
-    high: Vector3,
-    reach: number,
-): void {
-    if (other[0].x > other[1].x) return;
-    far.min(other[0].max(low.clone().subScalar(reach)));
-    wide.max(other[1].min(high.clone().addScalar(reach)));
+    limit: [Vector3, Vector3],
+): [Vector3, Vector3] {
+    return [
+        one[0].clone().min(other[0].clone().max(limit[0])),
+        one[1].clone().max(other[1].clone().min(limit[1])),
+    ];
 }
 
 function boxIn(film: Film, frame: number, bodies: number[]): [Vector3, Vector3] {

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { Vector3 } from "three";
 import { Orbit } from "../../src/space/orbit.ts";
 import { aroundOf, boxOf, floorOf, shownOf } from "../../src/space/view.ts";
-import { filmOf } from "../fixture.ts";
+import { filmOf, packed } from "../fixture.ts";
 import { cubes, cubesFilm } from "./fixture.ts";
 
 async function orbit() {
@@ -65,4 +65,36 @@ test("a wide ground does not take the view, and gravity says what is up", async 
     const { up, east, north } = aroundOf(leaning, ...boxOf(leaning));
     assert.ok(up.distanceTo(new Vector3(0.6, 0, 0.8)) < 1e-12);
     assert.ok(Math.abs(east.dot(up)) < 1e-12 && Math.abs(north.length() - 1) < 1e-12);
+});
+
+test("what falls from high up is in the box where it lands", async () => {
+    const plan = cubes();
+    const still = [1, 0, 0, 0];
+    const at = (z: number) => [0, 0, z, ...still];
+    const film = await filmOf({
+        ...plan,
+        kind: "run",
+        frames: {
+            ...plan.frames,
+            count: 2,
+            times: packed(Float64Array.of(0, 2)),
+            poses: packed(
+                Float32Array.of(
+                    ...at(-0.5),
+                    ...at(20),
+                    ...at(21),
+                    ...at(-0.5),
+                    ...at(0.5),
+                    ...at(1.5),
+                ),
+                [2, 3, 7],
+            ),
+            states: packed(new Uint8Array(6).fill(1), [2, 3]),
+            captions: [],
+        },
+        forces: null,
+        series: [],
+    });
+    const [low, high] = boxOf(film);
+    assert.ok(low.z < 0 && low.z > -1.5 && high.z > 21);
 });

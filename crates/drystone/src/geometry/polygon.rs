@@ -41,7 +41,7 @@ pub enum ShapeFault {
         second: usize,
     },
     /// All vertices lie on a line.
-    #[error("the polygon has zero area: give corners that are not all on one line")]
+    #[error("the polygon has zero area: give corners that are not all on one line, in order round the block")]
     ZeroArea,
     /// A corner points inwards.
     #[error("the polygon is not convex at vertex {vertex}: split it into convex blocks")]

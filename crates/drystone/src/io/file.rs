@@ -13,6 +13,9 @@ pub fn load(path: impl AsRef<Path>) -> Result<AnyScene, SceneError> {
     let file = path.display().to_string();
     match fs::read_to_string(path) {
         Ok(text) => from_json(&text, &file),
+        Err(error) if error.kind() == io::ErrorKind::InvalidData => {
+            Err(FileError::Read { file, reason: "it is not text in UTF-8: save it as such".to_owned() }.into())
+        }
         Err(error) => Err(FileError::Read { file, reason: error.to_string() }.into()),
     }
 }

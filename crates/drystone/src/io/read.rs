@@ -17,6 +17,9 @@ const SCENE_FIELDS: [&str; 8] =
 /// Fields of a body besides its shape, its place and its weight.
 const BODY_FIELDS: [&str; 5] = ["name", "friction", "fixed", "loads", "settlements"];
 
+/// What some editors write before the text.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
 /// Operations to parse a byte, about.
 const PARSING: usize = 32;
 
@@ -25,6 +28,7 @@ const PARSING: usize = 32;
 /// Every error is a [`SceneError::File`] that says file, place and fix; a body that is
 /// well-formed but not valid is [`FileError::Invalid`] around the reason.
 pub fn from_json(text: &str, file: &str) -> Result<AnyScene, SceneError> {
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     let owned = text.to_owned();
     let parsed = apart(PARSING * text.len(), move || serde_json::from_str::<Unique>(&owned));
     let Unique(document) = parsed.map_err(|error| syntax(file, text, &error))?;
@@ -96,6 +100,9 @@ fn add_body<S: Stored>(scene: &mut SceneOf<S>, file: &str, index: usize, value: 
 
 fn syntax(file: &str, text: &str, error: &serde_json::Error) -> FileError {
     let (file, line, column) = (file.to_owned(), error.line(), error.column());
+    if text.trim().is_empty() {
+        return FileError::Empty { file };
+    }
     if error.is_eof() {
         return FileError::Truncated { file, line, column };
     }
@@ -104,7 +111,8 @@ fn syntax(file: &str, text: &str, error: &serde_json::Error) -> FileError {
     if let Some(end) = reason.find(" at line ") {
         reason.truncate(end);
     }
-    if text.contains("NaN") || text.contains("Infinity") {
+    let wrong = text.lines().nth(line.saturating_sub(1)).unwrap_or_default();
+    if wrong.contains("NaN") || wrong.contains("Infinity") {
         reason.push_str(" (JSON has no NaN or Infinity: give finite numbers)");
     }
     FileError::Syntax { file, line, column, reason }

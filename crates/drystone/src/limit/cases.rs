@@ -8,7 +8,7 @@
 use super::{
     centre::{Centre, Centres},
     fall::Fall,
-    interior::end,
+    interior::{Known, end},
 };
 use crate::{
     check::check_blocks_while,
@@ -201,7 +201,7 @@ impl Asked<'_> {
         let there = self.under(from.case());
         let way: Vec<f64> = case.iter().zip(from.case()).map(|(to, from)| to - from).collect();
         let way = Push::sum(self.assembly, self.loads, &way);
-        let end = end(&there, self.blocks, &way, self.cone, 1.0, &mut 0).ok()?;
+        let end = end(&there, self.blocks, &way, self.cone, 1.0, Known::well(), &mut 0).ok()?;
         let fall = Fall::of_end(self.assembly, &there, self.loads, &end)?;
         // What lies between two cases in which it stands stands as well.
         let stands = end.factor > 1.0 + NEAR;

@@ -7,8 +7,9 @@
 use super::{
     ends::{End, Limit},
     greatest,
+    interior::Known,
     interior::greatest as proved,
-    limit,
+    limit_known,
     region::{Region, Support},
 };
 use crate::{
@@ -80,7 +81,15 @@ pub fn margin<S: Assemble>(
         sideways(assembly, scene, blocks, axes[0], asked.loads)?,
         sideways(assembly, scene, blocks, axes[1], asked.loads)?,
     ];
-    let mut probing = Probing { assembly, blocks, cone: asked.cone, axes, pushes, questions: 0 };
+    let mut probing = Probing {
+        assembly,
+        blocks,
+        cone: asked.cone,
+        axes,
+        pushes,
+        known: Known::within(asked.tolerance),
+        questions: 0,
+    };
     let mut margin = if assembly.in_plane() { probing.in_plane() } else { probing.in_space(asked.tolerance) };
     margin.tilt = match asked.loads {
         _ if margin.status != Status::Solved => None,
@@ -150,13 +159,16 @@ struct Probing<'a> {
     cone: FrictionCone,
     axes: [[f64; 3]; 2],
     pushes: [Push; 2],
+    /// How well the ends have to be known.
+    known: Known,
     questions: usize,
 }
 
 impl Probing<'_> {
     fn along(&mut self, [c, s]: [f64; 2]) -> Limit {
         self.questions += 1;
-        limit(self.assembly, self.blocks, &self.pushes[0].plus(c, &self.pushes[1], s), self.cone)
+        let push = self.pushes[0].plus(c, &self.pushes[1], s);
+        limit_known(self.assembly, self.blocks, &push, self.cone, self.known)
     }
 
     /// A margin of none: it falls under its own loads, if it does.

@@ -34,15 +34,21 @@ use drystone_lcp::{
     Status,
     cone::{ConeSolver, Membership},
 };
+use interior::Known;
 
 /// The interval for a sub-assembly of these blocks; a push acts on them only.
 pub fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Limit {
+    limit_known(assembly, blocks, push, cone, Known::well())
+}
+
+/// The same with ends that are known well enough.
+fn limit_known(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone, known: Known) -> Limit {
     if assembly.is_round(cone) {
-        return interior::limit(assembly, blocks, push, cone);
+        return interior::limit(assembly, blocks, push, cone, known);
     }
     let found = equilibrium_while(assembly, blocks, Effort::OfInteriorPoint, &mut |_| true);
     let (found, solver) = found.expect("nobody stops it");
-    limit_from(assembly, blocks, push, found, &solver)
+    from_equilibrium(assembly, blocks, push, found, &solver, known)
 }
 
 /// The greatest factor alone; None if it stands for none, or there is no answer.
@@ -61,11 +67,22 @@ pub(crate) fn limit_from(
     found: Membership,
     solver: &ConeSolver,
 ) -> Limit {
+    from_equilibrium(assembly, blocks, push, found, solver, Known::well())
+}
+
+fn from_equilibrium(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    push: &Push,
+    found: Membership,
+    solver: &ConeSolver,
+    known: Known,
+) -> Limit {
     let walked = match found {
         Membership::PivotLimit => None,
         _ => walk::limit(assembly, blocks, push, found, solver),
     };
-    walked.unwrap_or_else(|| interior::limit(assembly, blocks, push, FrictionCone::Pyramid))
+    walked.unwrap_or_else(|| interior::limit(assembly, blocks, push, FrictionCone::Pyramid, known))
 }
 
 /// The blocks with these names, or all.

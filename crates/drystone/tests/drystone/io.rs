@@ -199,9 +199,22 @@ fn another_format_version_or_dimension_is_refused_first() {
 fn a_file_cut_anywhere_is_an_error() {
     let text = text_of(&scenes::five_blocks(0.0).unwrap());
     let document = text.trim_end();
-    for end in 0..document.len() {
+    for end in 1..document.len() {
         let error = error_of(&document[..end]);
         assert!(matches!(error, FileError::Truncated { .. }), "cut at {end}: {error}");
+    }
+}
+
+#[test]
+fn a_byte_order_mark_before_the_text_is_no_error() {
+    let text = text_of(&scenes::five_blocks(0.0).unwrap());
+    assert_eq!(io::from_json(&format!("\u{feff}{text}"), "marked").unwrap().to_json(), text);
+}
+
+#[test]
+fn an_empty_file_is_said_to_be_empty() {
+    for text in ["", " \n\n"] {
+        assert!(matches!(error_of(text), FileError::Empty { .. }), "{}", error_of(text));
     }
 }
 
@@ -211,6 +224,8 @@ fn text_that_is_not_json_tells_the_place() {
     let error = error_of(&text);
     assert!(matches!(error, FileError::Syntax { line: 2, .. }), "{error:?}");
     assert!(error.to_string().contains("give finite numbers"), "{error}");
+    let elsewhere = error_of("<html>\nNaN");
+    assert!(!elsewhere.to_string().contains("give finite numbers"), "{elsewhere}");
     // JSON allows it, a double does not.
     assert!(matches!(error_of(&text.replace("NaN", "1e999")), FileError::Syntax { .. }));
 }

@@ -98,7 +98,7 @@ fn a_bad_polygon_is_refused_with_the_blocks_name_and_the_fix() {
     let add = |vertices: &[[f64; 2]]| empty().add_polygon(vertices, named("wedge")).unwrap_err().to_string();
     assert_eq!(
         add(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]),
-        "block \"wedge\": the polygon has zero area: give corners that are not all on one line"
+        "block \"wedge\": the polygon has zero area: give corners that are not all on one line, in order round the block"
     );
     assert!(add(&[[0.0, 0.0], [1.0, 0.0]]).contains("at least three"));
     let dent = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.5], [0.0, 2.0]];
