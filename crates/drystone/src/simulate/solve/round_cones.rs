@@ -30,6 +30,9 @@ const COARSE: f64 = 1e-4;
 /// half a minute, this at 0.013 %. The next step is exact.
 const COARSE_OF_MANY: f64 = 0.02;
 
+/// The same in space where pivots have become too hard: by so much the friction of their pyramids is off, and so was what they found in half a minute.
+const COARSE_AS_PYRAMIDS: f64 = 0.076;
+
 /// A quarter of the blocks are many.
 const MANY: usize = 4;
 
@@ -121,7 +124,7 @@ pub fn solve_on_round_cones<S: Kinematics>(
     }
     let many = axes::<S>() == 3 && step.contacts.len() >= MANY_ROWS;
     match from_impulses_before(state, previous, step) {
-        Some(motion) if is_within(&motion, COARSE) || (many && may_replace_pivots(step, &motion)) => {
+        Some(motion) if is_within(&motion, COARSE) || (many && gives_no_energy(step, &motion, COARSE_OF_MANY)) => {
             previous.forget_pivots();
             Ok(motion)
         }
@@ -129,16 +132,20 @@ pub fn solve_on_round_cones<S: Kinematics>(
     }
 }
 
-/// Whether it is near enough to take the place of pivots that are too hard, and its impulses give no energy but what rebounds have: with the velocities at
-/// the end of the step they have no power. (So what they do from its beginning to its end takes energy, for W is positive.)
+/// Whether it is near enough to take the place of pivots that are too hard.
 pub fn may_replace_pivots<S: Kinematics>(step: &StepProblem<'_, S>, motion: &Motion<S>) -> bool {
+    gives_no_energy(step, motion, if axes::<S>() == 3 { COARSE_AS_PYRAMIDS } else { COARSE_OF_MANY })
+}
+
+/// Whether it is within this share of the speeds, and its impulses give no energy but what rebounds have: with the velocities at the end of the step they
+/// have no power. (So what they do from its beginning to its end takes energy, for W is positive.)
+fn gives_no_energy<S: Kinematics>(step: &StepProblem<'_, S>, motion: &Motion<S>, share: f64) -> bool {
     let power = |(k, impulse): (usize, &S::Vector)| {
         let candidate = &step.contacts.candidates()[k];
         let rebound = step.offsets[k].min(0.0) * product(impulse, &candidate.normal);
         product(impulse, &relative_velocity::<S>(candidate, &motion.velocities)) + rebound
     };
-    is_within(motion, COARSE_OF_MANY)
-        && (motion.exact || motion.impulses.iter().enumerate().map(power).sum::<f64>() <= 0.0)
+    is_within(motion, share) && (motion.exact || motion.impulses.iter().enumerate().map(power).sum::<f64>() <= 0.0)
 }
 
 /// From the impulses of the step before.
