@@ -20,6 +20,7 @@ pub use warm_start::SavedStart;
 use super::{error::StepFailure, kinematics::Kinematics, options::Reuse, state::State};
 use drystone_lcp::{Counts, Status};
 use pivots::Unsolved;
+use round_cones::Round;
 
 /// Pivots of a step, times its rows, after which an answer on round cones takes their place, if there is one near the law: they take a sixth of a second in
 /// the plane, and twice that in space. A wall of 200 bricks that a block hit took up to 140,000 pivots a step, 19 s.
@@ -40,8 +41,9 @@ pub fn solve<S: Kinematics>(
         return Ok(motion);
     }
     let coarse = match round_cones::solve_on_round_cones(state, previous, step) {
-        Ok(motion) => return Ok(Motion { counts: motion.counts + work, ..motion }),
-        Err(coarse) => coarse,
+        Round::Solved(motion) => return Ok(Motion { counts: motion.counts + work, ..motion }),
+        Round::Coarse(motion) => Some(motion),
+        Round::Left => None,
     };
     let effort = if state.options.reuse == Reuse::Full { EFFORT } else { usize::MAX };
     let answer = match pivots::solve_by_pivots(state, previous, step, effort) {

@@ -110,25 +110,32 @@ fn all_are_slow<S: Kinematics>(state: &State<S>, step: &StepProblem<'_, S>) -> b
     bodies.into_iter().all(|i| norm(state.velocities[i].as_ref()) <= slow)
 }
 
+/// What round cones make of a step.
+pub enum Round<S: Kinematics> {
+    Solved(Motion<S>),
+    /// An answer that is not near enough: pivots are to be tried.
+    Coarse(Motion<S>),
+    /// It is left to pivots, or nothing was found.
+    Left,
+}
+
 /// Solves a step on round cones.
-///
-/// # Errors
-/// Where it is left to pivots; with the answer, if one was found that is not near enough.
 pub fn solve_on_round_cones<S: Kinematics>(
     state: &State<S>,
     previous: &mut PreviousStep<S>,
     step: &StepProblem<'_, S>,
-) -> Result<Motion<S>, Option<Motion<S>>> {
+) -> Round<S> {
     if !on_round_cones(state, previous, step) {
-        return Err(None);
+        return Round::Left;
     }
     let many = axes::<S>() == 3 && step.contacts.len() >= MANY_ROWS;
     match from_impulses_before(state, previous, step) {
         Some(motion) if is_within(&motion, COARSE) || (many && gives_no_energy(step, &motion, COARSE_OF_MANY)) => {
             previous.forget_pivots();
-            Ok(motion)
+            Round::Solved(motion)
         }
-        coarse => Err(coarse),
+        Some(motion) => Round::Coarse(motion),
+        None => Round::Left,
     }
 }
 
