@@ -8,7 +8,7 @@
 use super::{
     centre::{Centre, Centres},
     fall::Fall,
-    interior::{Known, end},
+    interior::{Known, Side},
 };
 use crate::{
     check::check_blocks_while,
@@ -201,7 +201,8 @@ impl Asked<'_> {
         let there = self.under(from.case());
         let way: Vec<f64> = case.iter().zip(from.case()).map(|(to, from)| to - from).collect();
         let way = Push::sum(self.assembly, self.loads, &way);
-        let end = end(&there, self.blocks, &way, self.cone, 1.0, Known::well(), &mut 0).ok()?;
+        let (blocks, cone, known) = (self.blocks, self.cone, Known::well());
+        let end = Side { assembly: &there, blocks, push: &way, cone, sign: 1.0, known }.end(&mut 0).ok()?;
         let fall = Fall::of_end(self.assembly, &there, self.loads, &end)?;
         // What lies between two cases in which it stands stands as well.
         let stands = end.factor > 1.0 + NEAR;

@@ -31,24 +31,24 @@ impl Known {
         Self { apart: 1e-8, imbalance: 1e-7 }
     }
 
-    /// Whether the forces hold the structure up to a factor beyond which the motion proves that it falls.
-    fn proves(self, end: &End) -> bool {
-        let apart = (end.bound - end.factor).abs() <= self.apart * end.factor.abs().max(1.0);
-        apart && end.imbalance <= self.imbalance && end.closing <= CLOSING
-    }
-
     /// Where the answer may be off by a tolerance: a hundredth of it. Round cones that only just slide, all at once, leave some
     /// 1e-7 where the push is askew to a wall of bricks.
     pub fn within(tolerance: f64) -> Self {
         let Self { apart, imbalance } = Self::well();
         Self { apart: apart.max(0.01 * tolerance), imbalance: imbalance.max(0.01 * tolerance) }
     }
+
+    /// Whether the forces hold the structure up to a factor beyond which the motion proves that it falls.
+    fn proves(self, end: &End) -> bool {
+        let apart = (end.bound - end.factor).abs() <= self.apart * end.factor.abs().max(1.0);
+        apart && end.imbalance <= self.imbalance && end.closing <= CLOSING
+    }
 }
 
 pub(super) fn limit(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone, known: Known) -> Limit {
     let towards = |sign: f64| {
         let mut iterations = 0;
-        (end(assembly, blocks, push, cone, sign, known, &mut iterations), iterations)
+        (Side { assembly, blocks, push, cone, sign, known }.end(&mut iterations), iterations)
     };
     let signs = [1.0, -1.0];
     let large = blocks.len() >= WORTH_A_THREAD;
@@ -88,56 +88,56 @@ const WORTH_A_THREAD: usize = 32;
 
 /// The greatest factor, if forces and a motion prove it.
 pub(super) fn greatest(assembly: &Assembly, blocks: &BlockSet, push: &Push, cone: FrictionCone) -> Option<f64> {
-    end(assembly, blocks, push, cone, 1.0, Known::well(), &mut 0).ok().map(|end| end.factor)
+    let upper = Side { assembly, blocks, push, cone, sign: 1.0, known: Known::well() };
+    upper.end(&mut 0).ok().map(|end| end.factor)
 }
 
-/// An end, or the one that was found though its residuals are too large.
-pub(super) fn end(
-    assembly: &Assembly,
-    blocks: &BlockSet,
-    push: &Push,
-    cone: FrictionCone,
-    sign: f64,
-    known: Known,
-    iterations: &mut usize,
-) -> Result<End, End> {
-    if push.is_none() {
-        return Err(End::unlimited(sign));
-    }
-    let signed = if sign < 0.0 { push.reversed() } else { push.clone() };
-    let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).under(&signed).greatest();
-    *iterations += found.iterations;
-    let finite = found.factor.is_finite() && motion.iter().flat_map(|(_, v)| v).all(|v| v.is_finite());
-    if !finite {
-        return Err(End::unknown());
-    }
-    let end = End::new(assembly, blocks, push, cone, sign * found.factor, motion.clone(), forces);
-    if known.proves(&end) {
-        return Ok(end);
-    }
-    let (factor, forces) = held_before(assembly, blocks, push, cone, sign, known, &end).ok_or(end.clone())?;
-    let held = End::new(assembly, blocks, push, cone, factor, motion, forces);
-    if known.proves(&held) { Ok(held) } else { Err(end) }
+/// One of the two ends, and how well it has to be known.
+#[derive(Clone, Copy)]
+pub(super) struct Side<'a> {
+    pub assembly: &'a Assembly,
+    pub blocks: &'a BlockSet,
+    pub push: &'a Push,
+    pub cone: FrictionCone,
+    /// 1 for the greatest factor, -1 for the least.
+    pub sign: f64,
+    pub known: Known,
 }
 
-/// Forces that hold it a little before the bound of its mechanism. Where round cones are met by many contacts at once, the forces at
-/// the end itself have some digits less than the mechanism; those before it are found from nothing.
-fn held_before(
-    assembly: &Assembly,
-    blocks: &BlockSet,
-    push: &Push,
-    cone: FrictionCone,
-    sign: f64,
-    known: Known,
-    end: &End,
-) -> Option<(f64, Vec<ContactForce>)> {
-    if !(end.bound.is_finite() && end.closing <= CLOSING) {
-        return None;
+impl Side<'_> {
+    /// The end, or the one that was found though its residuals are too large.
+    pub fn end(self, iterations: &mut usize) -> Result<End, End> {
+        let Self { assembly, blocks, push, cone, sign, known } = self;
+        if push.is_none() {
+            return Err(End::unlimited(sign));
+        }
+        let signed = if sign < 0.0 { push.reversed() } else { push.clone() };
+        let Constrained { motion, forces, found } = assembly.body_space(blocks, cone).under(&signed).greatest();
+        *iterations += found.iterations;
+        let finite = found.factor.is_finite() && motion.iter().flat_map(|(_, v)| v).all(|v| v.is_finite());
+        if !finite {
+            return Err(End::unknown());
+        }
+        let at = |factor: f64, forces| End::new(assembly, blocks, push, cone, factor, motion.clone(), forces);
+        let end = at(sign * found.factor, forces);
+        if known.proves(&end) {
+            return Ok(end);
+        }
+        let held = self.held_before(&end).map(|(factor, forces)| at(factor, forces));
+        held.filter(|held| known.proves(held)).ok_or(end)
     }
-    let factor = end.bound - 0.5 * sign * known.apart * end.bound.abs().max(1.0);
-    let pushed = assembly.pushed(push, factor);
-    let verdict = check_blocks_while(&pushed, blocks, cone, &mut |_| true).expect("nobody stops it");
-    verdict.stable.then(|| (factor, verdict.forces.into_iter().map(|(_, force)| force).collect()))
+
+    /// Forces that hold it a little before the bound of its mechanism. Where round cones are met by many contacts at once, the forces at
+    /// the end itself have some digits less than the mechanism; those before it are found from nothing.
+    fn held_before(self, end: &End) -> Option<(f64, Vec<ContactForce>)> {
+        if !(end.bound.is_finite() && end.closing <= CLOSING) {
+            return None;
+        }
+        let factor = end.bound - 0.5 * self.sign * self.known.apart * end.bound.abs().max(1.0);
+        let pushed = self.assembly.pushed(self.push, factor);
+        let verdict = check_blocks_while(&pushed, self.blocks, self.cone, &mut |_| true).expect("nobody stops it");
+        verdict.stable.then(|| (factor, verdict.forces.into_iter().map(|(_, force)| force).collect()))
+    }
 }
 
 /// Whether contacts bear the push however large: blocks without weight stand under it.

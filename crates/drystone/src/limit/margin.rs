@@ -7,8 +7,7 @@
 use super::{
     ends::{End, Limit},
     greatest,
-    interior::Known,
-    interior::greatest as proved,
+    interior::{Known, greatest as proved},
     limit_known,
     region::{Region, Support},
 };
