@@ -68,8 +68,9 @@ pub(crate) fn solve<const B: usize, const D: usize>(
             least = eps;
             continue;
         }
-        let (known, before) = (best.error, std::mem::replace(&mut state, at.clone()).p);
+        let (known, before) = (best.error, state.p.clone());
         let mut error = best.keep(system, &at);
+        state.clone_from(&at);
         let drifts = steps - begun == 1 && drift::STAYS.contains(&(error / last));
         last = error;
         while error > goal.end && newton.increment(system, &mut at, eps, false) {

@@ -50,7 +50,9 @@ impl Bodies {
 /// With velocities in the caller's unknowns.
 pub(crate) fn answer<const B: usize>(solved: Solved<B>, velocities: Vec<f64>) -> Solution {
     let Solved { impulses, error, tolerance, counts, .. } = solved;
-    let status = if error <= tolerance { Status::Solved } else { Status::Limit };
+    // What overflows proves nothing.
+    let solved = error <= tolerance && error.is_finite();
+    let status = if solved { Status::Solved } else { Status::Limit };
     Solution { impulses, velocities, error, tolerance, status, counts }
 }
 
