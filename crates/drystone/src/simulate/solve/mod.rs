@@ -2,6 +2,7 @@
 
 mod active_rows;
 mod anderson;
+mod choice;
 mod impulses_at_rest;
 mod pivots;
 mod previous_step;

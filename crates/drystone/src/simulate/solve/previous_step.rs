@@ -58,12 +58,11 @@ impl<S: Kinematics> PreviousStep<S> {
 
     /// Drops everything but the counts of the work done.
     pub fn forget(&mut self) {
-        self.solver.forget();
+        self.forget_pivots();
         self.problem = None;
         self.sliding.clear();
         self.impulses.clear();
         self.active_rows = ActiveRows::default();
-        self.at_rest = None;
     }
 
     /// Drops what pivots would take over: it is not of the step that was solved last.

@@ -4,6 +4,7 @@
 //! tumble. Here all that counts is how far the answer is from Coulomb's law; docs/theory/step-solver.md has what was measured.
 
 use super::{
+    choice,
     previous_step::PreviousStep,
     step_problem::{Motion, StepProblem},
 };
@@ -25,31 +26,13 @@ use std::time::Instant;
 /// up to 7.6 % of the friction: what is nearer is the better answer, though it is not exact.
 const COARSE: f64 = 1e-4;
 
-/// The same where pivots are too hard, or there are [`MANY_ROWS`], and they do not come to the law either. On 158 stones that fall at once and meet
+/// The same where pivots are too hard, or there are [`MANY_ROWS`](choice::MANY_ROWS), and they do not come to the law either. On 158 stones that fall at once and meet
 /// one another they end at 0.4 % of the speeds, this at 1 %; on a wall of 100 bricks in space that is hit at 20 m/s they end at 0.7 % after
 /// half a minute, this at 0.013 %. The next step is exact.
 const COARSE_OF_MANY: f64 = 0.02;
 
 /// The same in space where pivots have become too hard: by so much the friction of their pyramids is off, and so was what they found in half a minute.
 const COARSE_AS_PYRAMIDS: f64 = 0.076;
-
-/// A quarter of the blocks are many.
-const MANY: usize = 4;
-
-/// In the plane, where pivots have two rows a contact: from so many moving blocks on the step is solved sooner here. Measured: with 25 that tumble in
-/// half the time, with 10 in the same.
-const MANY_IN_PLANE: usize = 16;
-
-/// An impact, in this step, of what comes so many times as fast as gravity makes it in a step changes what bears all over a pile: pivots, whose pyramids
-/// have eight rows a contact, take seconds where Newton's method takes milliseconds.
-const IMPACT: f64 = 10.0;
-
-/// A block slower than this share of what gravity gives it in a step comes to rest, or settles by rounding of its place: pivots end that
-/// to the bit.
-const SLOW: f64 = 1e-3;
-
-/// Rows in space from which on a step is not solved by pivots from nothing: with 8,000 these take half a minute.
-const MANY_ROWS: usize = 1_000;
 
 /// By how much a body's speed may be further off than the law at its contacts: errors add up over a tower, and with its height. Seen: 13, at five
 /// blocks.
@@ -59,56 +42,11 @@ const AMPLIFIED: f64 = 100.0;
 const IN_PLANE: f64 = 0.1;
 
 /// Newton steps in one island, at most. In the plane, where there is another way too, [`LEAST_STEPS`] unless a body is hit; then so many times the contacts.
-/// In space, of 360 steps of a
-/// cube thrown at a wall one is not exact with 600, seven are with 400. In the plane, of 154 problems of a wall of 100 bricks that is hit 55 are not solved
-/// with 200, 32 with 600; heaps of 800 boxes have nothing of more than 200.
+/// Of 360 steps of a cube thrown at a wall in space one is not exact with 600, with 400 seven are not. Of 154 problems of a wall of 100 bricks in the plane that
+/// is hit 55 are not solved with 200, 32 with 600; heaps of 800 boxes have nothing of more than 200.
 const NEWTON_STEPS: usize = 600;
 const STEPS_TIMES_CONTACTS: usize = 300_000;
 const LEAST_STEPS: usize = 200;
-
-/// Whether a step is solved on round cones. Not for the modes of reuse that are about pivots. Where few blocks move amid many that rest, pivots
-/// with the factor of the step before are ten times faster; so they go on until [`MANY`] move or one hits another ([`IMPACT`]), in the plane
-/// until [`MANY_IN_PLANE`] move, and have no factor to go on with after that. Nor where all are [`SLOW`], if pivots have one; from nothing they end that in the plane, but in
-/// space they took a fifth of a second for a wall of 27 bricks that had been hit. Of first steps only those of [`MANY_ROWS`].
-fn on_round_cones<S: Kinematics>(state: &State<S>, previous: &PreviousStep<S>, step: &StepProblem<'_, S>) -> bool {
-    if state.options.reuse != Reuse::Full {
-        return false;
-    }
-    let count = |of: &[S::Velocity]| of.iter().filter(|x| !is_zero(*x)).count();
-    let (movable, moving) = (count(&state.inverse_mass), count(&state.velocities));
-    let kept = previous.solver.last_problem().is_some() || previous.at_rest.is_some();
-    if state.is_at_rest() && !kept {
-        return axes::<S>() == 3 && step.contacts.len() >= MANY_ROWS;
-    }
-    if (kept || axes::<S>() == 2) && all_are_slow(state, step) {
-        return false;
-    }
-    let enough = axes::<S>() == 3 || moving >= MANY_IN_PLANE;
-    // What is hit may move all at once.
-    let may_move = axes::<S>() == 3 || movable >= MANY_IN_PLANE;
-    // At rest so far, without a factor: to make one for many rows takes longer.
-    let unmade = previous.at_rest.is_some() && step.contacts.len() >= MANY_ROWS;
-    (previous.problem.is_some() && !kept)
-        || (unmade && moving > 0)
-        || (enough && moving > 0 && MANY * moving >= movable)
-        || (may_move && is_hit(state, step))
-}
-
-/// Whether one body hits another: [`IMPACT`].
-fn is_hit<S: Kinematics>(state: &State<S>, step: &StepProblem<'_, S>) -> bool {
-    let fall = norm(state.scene.gravity().as_ref()) * state.options.dt;
-    step.offsets.iter().enumerate().any(|(k, offset)| {
-        let [opening, _] = step.contacts.opening_and_sliding(k, step.free);
-        opening + offset < 0.0 && opening < -IMPACT * fall
-    })
-}
-
-/// Whether no velocity of bodies that may touch others is above [`SLOW`].
-fn all_are_slow<S: Kinematics>(state: &State<S>, step: &StepProblem<'_, S>) -> bool {
-    let slow = SLOW * norm(state.scene.gravity().as_ref()) * state.options.dt;
-    let bodies = step.contacts.candidates().iter().flat_map(|candidate| candidate.id.bodies);
-    bodies.into_iter().all(|i| norm(state.velocities[i].as_ref()) <= slow)
-}
 
 /// What round cones make of a step.
 pub enum Round<S: Kinematics> {
@@ -125,10 +63,10 @@ pub fn solve_on_round_cones<S: Kinematics>(
     previous: &mut PreviousStep<S>,
     step: &StepProblem<'_, S>,
 ) -> Round<S> {
-    if !on_round_cones(state, previous, step) {
+    if !choice::on_round_cones(state, previous, step) {
         return Round::Left;
     }
-    let many = axes::<S>() == 3 && step.contacts.len() >= MANY_ROWS;
+    let many = axes::<S>() == 3 && step.contacts.len() >= choice::MANY_ROWS;
     match from_impulses_before(state, previous, step) {
         Some(motion) if is_within(&motion, COARSE) || (many && gives_no_energy(step, &motion, COARSE_OF_MANY)) => {
             previous.forget_pivots();
@@ -221,7 +159,7 @@ fn from_impulses<S: Kinematics>(
     let tolerance = state.options.coulomb_tolerance;
     let aim = if axes == 2 { IN_PLANE * tolerance } else { tolerance };
     let newton_steps = match axes {
-        2 if is_hit(state, step) => (STEPS_TIMES_CONTACTS / candidates.len()).clamp(LEAST_STEPS, NEWTON_STEPS),
+        2 if choice::is_hit(state, step) => (STEPS_TIMES_CONTACTS / candidates.len()).clamp(LEAST_STEPS, NEWTON_STEPS),
         2 => LEAST_STEPS,
         _ => NEWTON_STEPS,
     };
