@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TextIO
 
 from drystone.common import later
-from drystone.common.files import PAGE, PICTURES, ending_of
+from drystone.common.files import JSON, PAGE, PICTURES, ending_of
+from drystone.common.json_text import save_json
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,6 +66,24 @@ class Paged(Drawn):
     def view(self) -> Page:
         """The page: save it, show it, or let a notebook show it."""
         return later.page(self)
+
+
+class Answer(Paged):
+    """What can be written as JSON besides."""
+
+    __slots__ = ()
+
+    def write_json(self, file: TextIO) -> None:
+        """Write it to an open file."""
+        raise NotImplementedError
+
+    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
+        """Write what `write_json` does (.json), the picture (.svg, .pdf, .png), or a page that
+        plays what moves (.html)."""
+        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
+            save_json(self, path)
+        else:
+            self.draw(path, dpi=dpi)
 
 
 def _require_one(path: object, ax: object) -> None:

@@ -5,15 +5,13 @@ from __future__ import annotations
 import copy
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from os import PathLike
 from typing import TYPE_CHECKING, Any, TextIO, TypeAlias
 
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
-from drystone.common.drawn import DPI, Paged
-from drystone.common.files import JSON, PAGE, PICTURES, ending_of
-from drystone.common.json_text import save_json, write_json
+from drystone.common.drawn import Answer
+from drystone.common.json_text import write_json
 from drystone.common.numbers import Floats, name_of, names_of, vector
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.contact_force import ANY, ContactForces
@@ -81,7 +79,7 @@ class LimitEnd:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Limit(Paged):
+class Limit(Answer):
     """The answer of `limit`."""
 
     status: str
@@ -178,14 +176,6 @@ class Limit(Paged):
     def write_json(self, file: TextIO) -> None:
         """Write `to_dict` as JSON to an open text file."""
         write_json(self.to_dict(), file)
-
-    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write `to_dict` (.json), a picture of forces and collapse (.svg, .pdf, .png), or a page
-        that plays it (.html)."""
-        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
-            save_json(self, path)
-        else:
-            self.draw(path, dpi=dpi)
 
 
 def limit(

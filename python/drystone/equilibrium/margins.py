@@ -5,15 +5,13 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Iterable, Sequence
-from os import PathLike
 from typing import TYPE_CHECKING, Any, Final, Literal, TextIO, TypeAlias, cast
 
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import FACETS, INSCRIBED, ROUND, Cone, core_cones
-from drystone.common.drawn import DPI, Paged
-from drystone.common.files import JSON, PAGE, PICTURES, ending_of
-from drystone.common.json_text import save_json, write_json
+from drystone.common.drawn import Answer
+from drystone.common.json_text import write_json
 from drystone.common.numbers import names_of, number
 from drystone.common.text import MOST_ROWS, counted, place, shorten
 from drystone.equilibrium.limits import LimitEnd, finite, limit, movable
@@ -35,7 +33,7 @@ TOLERANCE = 1e-3
 """How far the boundary may be off, in g, without a choice."""
 
 
-class Margin(Paged):
+class Margin(Answer):
     """The answer of `margin`."""
 
     __slots__ = (
@@ -177,14 +175,6 @@ class Margin(Paged):
     def write_json(self, file: TextIO) -> None:
         """Write `to_dict` as JSON to an open text file."""
         write_json(self.to_dict(), file)
-
-    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write `to_dict` (.json), a picture of the collapse (.svg, .pdf, .png), or a page that
-        plays it (.html)."""
-        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
-            save_json(self, path)
-        else:
-            self.draw(path, dpi=dpi)
 
 
 def _moment(arm: Sequence[float], force: Sequence[float]) -> tuple[float, ...]:

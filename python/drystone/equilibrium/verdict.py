@@ -6,15 +6,13 @@ import copy
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal, TextIO, TypeAlias
 
 from drystone import _core
 from drystone.common import later
 from drystone.common.cones import CONES, FACETS, ROUND, ConeOfCheck, core_cones
-from drystone.common.drawn import DPI, Paged
-from drystone.common.files import JSON, PAGE, PICTURES, ending_of
-from drystone.common.json_text import Rows, save_json, write_json
+from drystone.common.drawn import Answer
+from drystone.common.json_text import Rows, write_json
 from drystone.common.numbers import names_of, whole, word
 from drystone.common.text import MOST_ROWS, counted, shorten
 from drystone.equilibrium.bearing import Explanation, Unsupported
@@ -39,7 +37,7 @@ Method: TypeAlias = Literal["equilibrium", "interior", "lcp"]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Verdict(Paged):
+class Verdict(Answer):
     """The answer of `check`. It is true where it is `stable`: `if drystone.check(scene): ...`."""
 
     stable: bool
@@ -277,14 +275,6 @@ class Verdict(Paged):
           ground - 1     0.5       0        4.905                0
         """
         return later.table(self, rows)
-
-    def save(self, path: str | PathLike[str], *, dpi: float = DPI) -> None:
-        """Write all but the scene (.json), a picture of forces or fall (.svg, .pdf, .png), or a
-        page that plays it (.html)."""
-        if ending_of(path, (JSON, *PICTURES, PAGE)) == JSON:
-            save_json(self, path)
-        else:
-            self.draw(path, dpi=dpi)
 
 
 def check(

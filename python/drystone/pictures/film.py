@@ -34,6 +34,15 @@ STEPS_PER_SECOND = 2
 
 
 @singledispatch
+def _recorded(thing: object) -> Recording:
+    """The frames of a plan or a run; TypeError for what does not move."""
+    raise TypeError(f"there is no film of a {type(thing).__name__}")
+
+
+_recorded.register(Plan, plan_recording)
+_recorded.register(Run, recording_of_run)
+
+
 def save_film(
     thing: object,
     path: str | PathLike[str],
@@ -45,27 +54,7 @@ def save_film(
     `progress` is called with (frames drawn, frames in all). DrystoneError for .mp4 without ffmpeg,
     TypeError for what does not move.
     """
-    raise TypeError(f"there is no film of a {type(thing).__name__}")
-
-
-@save_film.register(Plan)
-def _(
-    plan: Plan,
-    path: str | PathLike[str],
-    dpi: float = DPI,
-    progress: Callable[[int, int], None] | None = None,
-) -> None:
-    film_of(plan_recording(plan), path, dpi, progress)
-
-
-@save_film.register(Run)
-def _(
-    run: Run,
-    path: str | PathLike[str],
-    dpi: float = DPI,
-    progress: Callable[[int, int], None] | None = None,
-) -> None:
-    film_of(recording_of_run(run), path, dpi, progress)
+    film_of(_recorded(thing), path, dpi, progress)
 
 
 def film_of(
