@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Iterator
+
 import drystone as ds
 import results
 from simulators import Motion, Simulator
@@ -58,3 +61,20 @@ def times(simulator: Simulator, motion: Motion, steps: int) -> dict[str, object]
         "worst_ms": results.number(1e3 * motion.worst, 3),
         "not_exact": motion.not_exact if isinstance(simulator, Drystone) else "",
     }
+
+
+def beside(
+    common: dict[str, object],
+    scene: ds.Scene,
+    steps: int,
+    simulators: Iterable[Simulator],
+    velocities: Velocities | None = None,
+) -> Iterator[dict[str, object]]:
+    """A line for each simulator, drystone first, with the ratio of its time to theirs."""
+    first = math.nan
+    for simulator in simulators:
+        motion = fastest_run(simulator, scene, steps, steps, velocities)
+        ours = isinstance(simulator, Drystone)
+        first = motion.seconds if ours else first
+        ratio = "" if ours else results.number(first / motion.seconds, 3)
+        yield common | times(simulator, motion, steps) | {"ratio": ratio}

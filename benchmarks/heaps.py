@@ -1,4 +1,4 @@
-"""Heaps of boxes that tumble in space beside MuJoCo, and cubes thrown at walls of bricks.
+"""Heaps of boxes that tumble in space beside MuJoCo, and a cube thrown at a wall of bricks.
 
     .venv/bin/pip install "mujoco<4"      # as far as wanted
     .venv/bin/python benchmarks/heaps.py [BOXES ...]
@@ -31,7 +31,6 @@ SPACING = 1.3
 """Metres between the middles of boxes of .3 to .8 m, three by three in a layer."""
 THROWN = {"thrown": (0, 9, 0, 0, 0, 0)}
 """m/s, rad/s."""
-FAST = {"thrown": (0, 20, 0, 0, 0, 0)}
 
 
 def heap(boxes: int, seed: int = 0) -> ds.Scene:
@@ -55,18 +54,6 @@ def thrown() -> ds.Scene:
     return scene
 
 
-def hit(rows: int) -> ds.Scene:
-    """A wall of as many columns, half a brick off in turns, and a heavy cube."""
-    scene = ds.Scene(dimension=3, friction=0.6)
-    scene.add_box((0, 0, -0.5), (60, 60, 1), name="ground", fixed=True)
-    for row in range(rows):
-        for k in range(rows):
-            x = k - (rows - 1) / 2 + (0.25 if row % 2 else -0.25)
-            scene.add_box((x, 0, 0.25 + 0.5 * row), (1, 0.5, 0.5), name=f"{row}-{k}")
-    scene.add_box((0, -2, rows / 4), (0.8, 0.8, 0.8), name="thrown", density=5000)
-    return scene
-
-
 def line(scene: ds.Scene, steps: int, velocities: Velocities | None = None) -> list[str]:
     """The cells of one line: ours, and MuJoCo's where it is installed."""
     run = ds.simulate(scene, DT, steps, velocities=velocities)
@@ -81,7 +68,7 @@ def line(scene: ds.Scene, steps: int, velocities: Velocities | None = None) -> l
 
 
 def main() -> None:
-    """Print a line for each heap, and for each wall."""
+    """Print a line for each heap, and one for the cube."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
@@ -90,8 +77,6 @@ def main() -> None:
     for boxes in parser.parse_args().boxes:
         table.add_row(f"{boxes} boxes", *line(heap(boxes), STEPS))
     table.add_row("thrown cube", *line(thrown(), 360, THROWN))
-    for rows in (6, 8, 12):
-        table.add_row(f"wall of {rows} x {rows}", *line(hit(rows), 240, FAST))
     Console(width=100).print(table)
 
 

@@ -85,15 +85,8 @@ def measure(
     """A line for each simulator, drystone first."""
     scene = heap(boxes, friction)
     common = fastest_run.common(f"heap of {boxes}", boxes, friction, steps)
-    first = math.nan
-    for simulator in simulators:
-        if boxes > SLOWEST.get(simulator.name, boxes):
-            continue
-        motion = fastest_run.fastest_run(simulator, scene, steps, steps)
-        ours = isinstance(simulator, Drystone)
-        first = motion.seconds if ours else first
-        ratio = "" if ours else results.number(first / motion.seconds, 3)
-        yield common | fastest_run.times(simulator, motion, steps) | {"ratio": ratio}
+    timed = [s for s in simulators if boxes <= SLOWEST.get(s.name, boxes)]
+    yield from fastest_run.beside(common, scene, steps, timed)
 
 
 def exponent(lines: list[dict[str, object]], friction: float, name: str) -> float:

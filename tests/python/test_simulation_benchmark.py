@@ -18,6 +18,7 @@ import hard_scene_list  # noqa: E402
 import hard_scenes  # noqa: E402
 import heaps  # noqa: E402
 import heaps_in_plane  # noqa: E402
+import impacts  # noqa: E402
 import judge  # noqa: E402
 import simulation  # noqa: E402
 from simulators import SIMULATORS  # noqa: E402
@@ -204,3 +205,11 @@ def test_heaps_that_tumble_leave_no_overlaps() -> None:
     run = ds.simulate(heaps.heap(54), heaps.DT, 360)
     assert run.penetration.max() < 1e-6
     assert run.projections.max() < 10
+
+
+def test_what_is_hit_is_measured() -> None:
+    ours = [heaps_in_plane.SIMULATORS["drystone"]]
+    for name, kind in impacts.KINDS.items():
+        (line,) = impacts.measure(name, kind.sizes[0], ours)
+        assert set(line) == set(impacts.COLUMNS)
+        assert float(str(line["microseconds"])) > 0
