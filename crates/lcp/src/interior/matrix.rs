@@ -6,7 +6,7 @@
 use super::{
     block_cholesky::BlockCholesky,
     blocks::{Block, Pattern},
-    scaled::{Scaled, ScaledPoint},
+    scaled::{Scaled, ScaledPoint, joints},
     supernodes::Supernodes,
 };
 use crate::interrupt::{apart, poll};
@@ -21,7 +21,7 @@ pub(super) struct BodyMatrix<const B: usize> {
     place: Vec<usize>,
     diagonal: Vec<Block<B>>,
     below: Vec<Block<B>>,
-    /// For each point, and each pair of its bodies, the block between the two.
+    /// For each joint, and each pair of its bodies, the block between the two.
     between: Vec<usize>,
     factor: Factor<B>,
     right: Vec<[f64; B]>,
@@ -65,8 +65,8 @@ impl<const B: usize> BodyMatrix<B> {
     pub fn between<const D: usize, const N: usize>(bodies: usize, points: &[ScaledPoint<B, D, N>]) -> Option<Self> {
         let place = order(bodies, points)?;
         let mut below: Vec<Vec<u32>> = vec![Vec::new(); bodies];
-        for point in points {
-            for (earlier, later) in pairs(point, &place).flatten() {
+        for joint in joints(points) {
+            for (earlier, later) in pairs(&joint[0], &place).flatten() {
                 below[earlier].push(later as u32);
             }
         }
@@ -76,7 +76,7 @@ impl<const B: usize> BodyMatrix<B> {
             below.dedup();
             pattern.push(below);
         }
-        let found = points.iter().flat_map(|point| pairs(point, &place));
+        let found = joints(points).flat_map(|joint| pairs(&joint[0], &place));
         let between = found.map(|pair| {
             let (earlier, later) = pair?;
             let among = pattern.rows(earlier).binary_search(&(later as u32)).ok()?;
@@ -88,41 +88,29 @@ impl<const B: usize> BodyMatrix<B> {
         Some(Self { place, diagonal, below, between, factor, right: vec![[0.0; B]; bodies] })
     }
 
-    /// Makes it diagonal, with the same number for all unknowns of a body.
-    pub fn reset(&mut self, diagonal: impl Fn(usize) -> f64) {
+    /// Makes it `J' N J`, with N the weight of each point, and more on the diagonal: the same number for all unknowns of a body.
+    pub fn assemble<const D: usize, const N: usize>(
+        &mut self,
+        points: &[ScaledPoint<B, D, N>],
+        diagonal: impl Fn(usize) -> f64,
+        mut weight: impl FnMut(&ScaledPoint<B, D, N>) -> [[f64; D]; D],
+    ) {
         self.below.fill([[0.0; B]; B]);
         for (body, &place) in self.place.iter().enumerate() {
             let mut own = [[0.0; B]; B];
             (0..B).for_each(|k| own[k][k] = diagonal(body));
             self.diagonal[place] = own;
         }
-    }
-
-    /// Adds `J' N J` of a point.
-    pub fn add<const D: usize, const N: usize>(
-        &mut self,
-        index: usize,
-        point: &ScaledPoint<B, D, N>,
-        weight: &[[f64; D]; D],
-    ) {
-        let weighted = point.jacobian.each_ref().map(|jacobian| weighted(jacobian, weight));
-        for (side, weighted) in weighted.iter().enumerate() {
-            let Some(body) = point.body(side) else { continue };
-            let own = &mut self.diagonal[self.place[body]];
-            for column in 0..B {
-                for (jacobian, weighted) in point.jacobian[side].iter().zip(weighted) {
-                    (column..B).for_each(|row| own[column][row] += jacobian[row] * weighted[column]);
+        for (joint, between) in joints(points).zip(self.between.chunks_exact(two_of(N).count())) {
+            let sums = Sums::of(joint, &self.place, &mut weight);
+            for (side, own) in sums.own.iter().enumerate() {
+                if let Some(body) = joint[0].body(side) {
+                    add(&mut self.diagonal[self.place[body]], own);
                 }
             }
-        }
-        let first_pair = index * two_of(N).count();
-        for (pair, [one, other]) in two_of(N).enumerate() {
-            let (Some(a), Some(b)) = (point.body(one), point.body(other)) else { continue };
-            let (earlier, later) = if self.place[a] < self.place[b] { (one, other) } else { (other, one) };
-            let block = &mut self.below[self.between[first_pair + pair]];
-            for column in 0..B {
-                for (jacobian, weighted) in point.jacobian[later].iter().zip(&weighted[earlier]) {
-                    (0..B).for_each(|row| block[column][row] += jacobian[row] * weighted[column]);
+            for ((pair, mixed), &place) in pairs(&joint[0], &self.place).zip(&sums.mixed).zip(between) {
+                if pair.is_some() {
+                    add(&mut self.below[place], mixed);
                 }
             }
         }
@@ -158,6 +146,48 @@ impl<const B: usize> BodyMatrix<B> {
             *x = self.right[place];
         }
     }
+}
+
+/// What the points of a joint add.
+struct Sums<const B: usize, const N: usize> {
+    /// For each body.
+    own: [Block<B>; N],
+    /// For each pair of bodies: as many as bodies at most.
+    mixed: [Block<B>; N],
+}
+
+impl<const B: usize, const N: usize> Sums<B, N> {
+    fn of<const D: usize>(
+        joint: &[ScaledPoint<B, D, N>],
+        place: &[usize],
+        weight: &mut impl FnMut(&ScaledPoint<B, D, N>) -> [[f64; D]; D],
+    ) -> Self {
+        let mut sums = Self { own: [[[0.0; B]; B]; N], mixed: [[[0.0; B]; B]; N] };
+        let mut sides = [[0; 2]; N];
+        for (sides, [one, other]) in sides.iter_mut().zip(two_of(N)) {
+            let at = |side: usize| joint[0].body(side).map(|body| place[body]);
+            *sides = if at(one) < at(other) { [one, other] } else { [other, one] };
+        }
+        for point in joint {
+            let weight = weight(point);
+            let weighted = point.jacobian.each_ref().map(|jacobian| weighted(jacobian, &weight));
+            for (own, (jacobian, weighted)) in sums.own.iter_mut().zip(point.jacobian.iter().zip(&weighted)) {
+                for (row, weighted) in jacobian.iter().zip(weighted) {
+                    (0..B).for_each(|column| (column..B).for_each(|k| own[column][k] += row[k] * weighted[column]));
+                }
+            }
+            for (block, [earlier, later]) in sums.mixed.iter_mut().zip(sides).take(two_of(N).count()) {
+                for (row, weighted) in point.jacobian[later].iter().zip(&weighted[earlier]) {
+                    (0..B).for_each(|column| (0..B).for_each(|k| block[column][k] += row[k] * weighted[column]));
+                }
+            }
+        }
+        sums
+    }
+}
+
+fn add<const B: usize>(sum: &mut Block<B>, more: &Block<B>) {
+    sum.iter_mut().flatten().zip(more.iter().flatten()).for_each(|(sum, more)| *sum += more);
 }
 
 fn weighted<const B: usize, const D: usize>(jacobian: &[[f64; B]; D], weight: &[[f64; D]; D]) -> [[f64; B]; D] {

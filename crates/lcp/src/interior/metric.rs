@@ -38,10 +38,7 @@ impl<const B: usize, const D: usize> Metric<B, D> {
 
     /// Factors the matrix at some forces, with `more` on its diagonal. None if some body could not be held by these whatever they were.
     pub fn factor(&mut self, f: &[f64], more: f64) -> Option<()> {
-        self.matrix.reset(|_| more);
-        for (index, point) in self.problem.points.iter().enumerate() {
-            self.matrix.add(index, point, &weight(&self.problem, point, f));
-        }
+        self.matrix.assemble(&self.problem.points, |_| more, |point| weight(&self.problem, point, f));
         self.matrix.factor().map(drop)
     }
 

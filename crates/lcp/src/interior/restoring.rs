@@ -63,10 +63,7 @@ impl<const B: usize> Restoring<B> {
             return None;
         }
         (self.last, self.looks) = (share, self.looks + 1);
-        matrix.reset(|_| PROXIMAL);
-        for (index, point) in problem.points.iter().enumerate() {
-            matrix.add(index, point, &weight(problem, point, f));
-        }
+        matrix.assemble(&problem.points, |_| PROXIMAL, |point| weight(problem, point, f));
         matrix.factor()?;
         self.df.fill(0.0);
         self.add(problem, f);

@@ -147,31 +147,40 @@ impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
 
     /// `J a`.
     pub fn motion(&self, a: &[[f64; B]], s: &mut [f64]) {
-        for point in &self.points {
-            let mut u = [0.0; D];
-            for side in 0..N {
-                let Some(body) = point.body(side) else { continue };
-                for (u, row) in u.iter_mut().zip(&point.jacobian[side]) {
-                    *u += dot(row, &a[body]);
+        for joint in joints(&self.points) {
+            let moves: [_; N] = std::array::from_fn(|side| joint[0].body(side).map_or([0.0; B], |body| a[body]));
+            for point in joint {
+                let mut u = [0.0; D];
+                for (jacobian, a) in point.jacobian.iter().zip(&moves) {
+                    for (u, row) in u.iter_mut().zip(jacobian) {
+                        *u += dot(row, a);
+                    }
                 }
-            }
-            for (edge, s) in self.edges[point.own()].iter().zip(&mut s[point.own()]) {
-                *s = dot(edge, &u);
+                for (edge, s) in self.edges[point.own()].iter().zip(&mut s[point.own()]) {
+                    *s = dot(edge, &u);
+                }
             }
         }
     }
 
     /// Adds `J' f` times a factor.
     pub fn add_wrenches(&self, f: &[f64], factor: f64, out: &mut [[f64; B]]) {
-        for point in &self.points {
-            let mut force = [0.0; D];
-            for (edge, f) in self.edges[point.own()].iter().zip(&f[point.own()]) {
-                (0..D).for_each(|k| force[k] += edge[k] * f * factor);
+        for joint in joints(&self.points) {
+            let mut wrenches = [[0.0; B]; N];
+            for point in joint {
+                let mut force = [0.0; D];
+                for (edge, f) in self.edges[point.own()].iter().zip(&f[point.own()]) {
+                    (0..D).for_each(|k| force[k] += edge[k] * f * factor);
+                }
+                for (jacobian, wrench) in point.jacobian.iter().zip(&mut wrenches) {
+                    for (force, row) in force.iter().zip(jacobian) {
+                        wrench.iter_mut().zip(row).for_each(|(wrench, row)| *wrench += row * force);
+                    }
+                }
             }
-            for side in 0..N {
-                let Some(body) = point.body(side) else { continue };
-                for (force, row) in force.iter().zip(&point.jacobian[side]) {
-                    out[body].iter_mut().zip(row).for_each(|(out, row)| *out += row * force);
+            for (side, wrench) in wrenches.iter().enumerate() {
+                if let Some(body) = joint[0].body(side) {
+                    out[body].iter_mut().zip(wrench).for_each(|(out, wrench)| *out += wrench);
                 }
             }
         }
@@ -199,12 +208,31 @@ impl<const B: usize, const D: usize, const N: usize> Scaled<B, D, N> {
     }
 }
 
+/// Points one after the other that are between the same bodies.
+pub(super) fn joints<const B: usize, const D: usize, const N: usize>(
+    points: &[ScaledPoint<B, D, N>],
+) -> impl Iterator<Item = &[ScaledPoint<B, D, N>]> {
+    points.chunk_by(|one, next| one.bodies == next.bodies)
+}
+
 fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     (0..N).map(|k| a[k] * b[k]).sum()
 }
 
+/// The largest magnitude.
 pub(super) fn largest<const N: usize>(x: &[[f64; N]]) -> f64 {
-    x.iter().flatten().fold(0.0, |largest, x| largest.max(x.abs()))
+    largest_of(x.as_flattened(), |x| x.abs())
+}
+
+/// The largest of some values and zero; eight at once, since each comparison waits for the one before.
+pub(super) fn largest_of<T>(items: &[T], value: impl Fn(&T) -> f64) -> f64 {
+    let mut most = [0.0_f64; 8];
+    let mut eights = items.chunks_exact(most.len());
+    for eight in &mut eights {
+        most.iter_mut().zip(eight).for_each(|(most, item)| *most = most.max(value(item)));
+    }
+    most.iter_mut().zip(eights.remainder()).for_each(|(most, item)| *most = most.max(value(item)));
+    most.into_iter().fold(0.0, f64::max)
 }
 
 /// The rows of a cone, so that the longest has length one.

@@ -4,8 +4,8 @@ use super::scaled::{Scaled, ScaledPoint};
 
 /// W at a pair (f, s) inside the cones.
 pub(super) struct Scaling {
-    /// Of a ray `s / f`, which is W^2.
-    squares: Vec<f64>,
+    /// Of a ray `(W^2 + delta)^-1`, where W^2 is `s / f`.
+    inverses: Vec<f64>,
     /// Of each round cone, in order.
     rounds: Vec<Round>,
     /// Weight of the proximal term.
@@ -41,19 +41,19 @@ impl Scaling {
         s: &[f64],
         delta: f64,
     ) -> Self {
-        let mut squares: Vec<f64> = f.iter().zip(s).map(|(f, s)| s / f).collect();
+        let mut inverses: Vec<f64> = f.iter().zip(s).map(|(f, s)| f / (s + delta * f)).collect();
         let mut rounds = Vec::new();
         for point in problem.points.iter().filter(|point| point.round) {
-            squares[point.own()].fill(0.0);
+            inverses[point.own()].fill(0.0);
             rounds.push(Round::at(&f[point.own()], &s[point.own()], delta));
         }
-        Self { squares, rounds, delta }
+        Self { inverses, rounds, delta }
     }
 
     /// `(W^2 + delta)^-1 x`, in place.
     pub fn divide<const B: usize, const D: usize, const N: usize>(&self, problem: &Scaled<B, D, N>, x: &mut [f64]) {
         if !problem.any_round {
-            x.iter_mut().zip(&self.squares).for_each(|(x, square)| *x /= square + self.delta);
+            x.iter_mut().zip(&self.inverses).for_each(|(x, inverse)| *x *= inverse);
             return;
         }
         let mut rounds = self.rounds.iter();
@@ -62,19 +62,18 @@ impl Scaling {
             if point.round {
                 rounds.next().expect("one for each").divide(x);
             } else {
-                x.iter_mut().zip(&self.squares[point.own()]).for_each(|(x, square)| *x /= square + self.delta);
+                x.iter_mut().zip(&self.inverses[point.own()]).for_each(|(x, inverse)| *x *= inverse);
             }
         }
     }
 
-    /// Tells for each point its `(W^2 + delta)^-1` as a matrix on the directions.
+    /// `(W^2 + delta)^-1` of each point as a matrix on the directions; to be asked in their order.
     pub fn weights<const B: usize, const D: usize, const N: usize>(
         &self,
         problem: &Scaled<B, D, N>,
-        mut tell: impl FnMut(&ScaledPoint<B, D, N>, [[f64; D]; D]),
-    ) {
+    ) -> impl FnMut(&ScaledPoint<B, D, N>) -> [[f64; D]; D] {
         let mut rounds = self.rounds.iter();
-        for point in &problem.points {
+        move |point| {
             let mut weight = [[0.0; D]; D];
             let edges = &problem.edges[point.own()];
             if point.round {
@@ -83,14 +82,13 @@ impl Scaling {
                     (0..D).for_each(|k| weight[i][k] = edges[i][i] * inner[i][k] * edges[k][k]);
                 }
             } else {
-                for (edge, square) in edges.iter().zip(&self.squares[point.own()]) {
-                    let inverse = (square + self.delta).recip();
+                for (edge, inverse) in edges.iter().zip(&self.inverses[point.own()]) {
                     for i in 0..D {
                         (0..D).for_each(|k| weight[i][k] += inverse * edge[i] * edge[k]);
                     }
                 }
             }
-            tell(point, weight);
+            weight
         }
     }
 
@@ -202,8 +200,12 @@ pub(super) fn way_to_border<const B: usize, const D: usize, const N: usize>(
 }
 
 fn on_rays(x: &[f64], d: &[f64]) -> f64 {
-    let steepest = x.iter().zip(d).fold(0.0_f64, |steepest, (x, d)| steepest.max(-d / x));
-    steepest.recip()
+    let mut steepest = [0.0_f64; 8];
+    let eights = x.chunks(steepest.len()).zip(d.chunks(steepest.len()));
+    for (x, d) in eights {
+        steepest.iter_mut().zip(x.iter().zip(d)).for_each(|(steepest, (x, d))| *steepest = steepest.max(-d / x));
+    }
+    steepest.into_iter().fold(0.0, f64::max).recip()
 }
 
 /// The first positive root of `determinant(x + t d)`, or of the first component.
