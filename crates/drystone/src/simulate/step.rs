@@ -147,23 +147,36 @@ impl<S: Moving> World<S> {
         Some(record)
     }
 
-    /// Formulates and solves the step; again where bodies then meet of which nothing was before a face of the other.
+    /// Formulates and solves the step; again where bodies then meet of which nothing was before a face of the other. Mostly that is the end of
+    /// it. From the second time on the step is solved only nearly, until nobody meets any more.
     fn solve(&mut self, free: &[S::Velocity]) -> Result<(ContactProblem<S>, Motion<S>), StepFailure> {
         let Self { state, previous, finder, law, .. } = self;
         let (options, gravity) = (state.options, state.scene.gravity());
         let mut problem = previous.formulate(finder.candidates().copied().collect(), &options, gravity);
         let mut motion = law.motion(state, previous, &problem, free)?;
+        let (mut rounds, mut nearly) = (0, false);
         loop {
             let more = contacts::met(finder, state, problem.candidates(), &motion.velocities);
-            if more.is_empty() {
+            if more.is_empty() && !nearly {
                 return Ok((problem, motion));
             }
-            let mut all = [problem.candidates(), &more].concat();
-            all.sort_by_key(|candidate| candidate.id);
-            let next = previous.formulate(all, &options, gravity);
             previous.take(&problem, &motion);
-            problem = next;
-            let earlier = std::mem::replace(&mut motion, law.motion(state, previous, &problem, free)?);
+            rounds += 1;
+            let mut next = None;
+            if !more.is_empty() {
+                let mut all = [problem.candidates(), &more].concat();
+                all.sort_by_key(|candidate| candidate.id);
+                problem = previous.formulate(all, &options, gravity);
+                if rounds > 1 {
+                    next = law.nearly(state, previous, &problem, free);
+                }
+            }
+            nearly = next.is_some();
+            let next = match next {
+                Some(next) => next,
+                None => law.motion(state, previous, &problem, free)?,
+            };
+            let earlier = std::mem::replace(&mut motion, next);
             motion.add_earlier(&earlier);
         }
     }

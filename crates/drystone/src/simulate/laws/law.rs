@@ -22,4 +22,15 @@ pub trait Law<S: Kinematics>: Sync {
         contacts: &ContactProblem<S>,
         free: &[S::Velocity],
     ) -> Result<Motion<S>, StepFailure>;
+
+    /// Velocities near those of [`Self::motion`], where these are found much sooner: enough to see who meets. None otherwise.
+    fn nearly(
+        &self,
+        _state: &State<S>,
+        _previous: &PreviousStep<S>,
+        _contacts: &ContactProblem<S>,
+        _free: &[S::Velocity],
+    ) -> Option<Motion<S>> {
+        None
+    }
 }

@@ -5,7 +5,7 @@ use crate::simulate::{
     error::StepFailure,
     formulate::{contact_problem::ContactProblem, free_motion::energy_gained, restitution::Offsets},
     kinematics::Kinematics,
-    solve::{Motion, PreviousStep},
+    solve::{Motion, PreviousStep, StepProblem, solve_nearly},
     state::State,
 };
 
@@ -23,5 +23,16 @@ impl<S: Kinematics> Law<S> for VelocityLevel {
     ) -> Result<Motion<S>, StepFailure> {
         let offsets = Offsets::new(state, contacts, free);
         solve_with_rebounds(state, previous, contacts, (free, &offsets), |ends| energy_gained(state, ends))
+    }
+
+    fn nearly(
+        &self,
+        state: &State<S>,
+        previous: &PreviousStep<S>,
+        contacts: &ContactProblem<S>,
+        free: &[S::Velocity],
+    ) -> Option<Motion<S>> {
+        let offsets = Offsets::new(state, contacts, free).with(state.options.restitution);
+        solve_nearly(state, previous, &StepProblem { contacts, free, offsets: &offsets })
     }
 }
