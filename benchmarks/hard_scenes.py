@@ -26,13 +26,13 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
-from rich.console import Console
-from rich.table import Table
 
 import drystone as ds
 import fastest_run
+import kept_table
 import results
 from hard_scene_list import SCENES, HardScene
+from kept_table import KeptTable
 from simulators import Simulator
 from simulators.drystone import Drystone
 from simulators.mujoco import MuJoCo
@@ -67,6 +67,17 @@ COLUMNS = (
 )
 """Explained in benchmarks/README.md."""
 
+SHOWN = {
+    "scene": "scene",
+    "simulator": "",
+    "fallen": "fallen",
+    "drift": "drift, m",
+    "penetration": "overlap, m",
+    "microseconds": "us a step",
+    "worst_ms": "worst, ms",
+    "not_exact": "not exact",
+}
+
 Floats = NDArray[np.float64]
 
 
@@ -80,38 +91,11 @@ def main() -> None:
     results.add_output(parser)
     arguments = parser.parse_args()
     chosen = [SIMULATORS[name] for name in arguments.simulators]
-    ready = [simulator for simulator in chosen if not simulator.missing()]
-    for simulator in ready:
-        simulator.prepare()
-    base = results.path_in(arguments.output)
-    path = base.with_name(base.name + "-hard-scenes.csv")
-    table = Table(
-        "scene", "", "fallen", "drift, m", "overlap, m", "us a step", "worst, ms", "not exact"
-    )
-    lines: list[dict[str, object]] = []
+    ready = kept_table.ready(chosen)
+    table = KeptTable(arguments.output, "hard-scenes", COLUMNS, SHOWN)
     for name in arguments.scenes:
-        for line in measure(name, ready):
-            lines.append(line)
-            table.add_row(*(str(line[column]) for column in _SHOWN))
-        results.write_lines(path, COLUMNS, lines)
-    console = Console()
-    console.width = max(console.width, 110)
-    console.print(table)
-    for simulator in set(chosen) - set(ready):
-        console.print(f"{simulator.name}: {simulator.missing()}")
-    console.print(f"wrote {path}", soft_wrap=True)
-
-
-_SHOWN = (
-    "scene",
-    "simulator",
-    "fallen",
-    "drift",
-    "penetration",
-    "microseconds",
-    "worst_ms",
-    "not_exact",
-)
+        table.add(measure(name, ready))
+    table.show(missing=[simulator for simulator in chosen if simulator not in ready])
 
 
 def measure(name: str, simulators: list[Simulator]) -> Iterator[dict[str, object]]:

@@ -21,12 +21,12 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 
 import drystone as ds
 import fastest_run
+import kept_table
 import results
+from kept_table import KeptTable
 from simulators import Simulator
 from simulators.drystone import Drystone
 from simulators.mujoco import MuJoCo
@@ -60,6 +60,16 @@ COLUMNS = (
     "ratio",
 )
 """Explained in benchmarks/README.md."""
+
+SHOWN = {
+    "blocks": "boxes",
+    "friction": "friction",
+    "simulator": "",
+    "microseconds": "us a step",
+    "worst_ms": "worst, ms",
+    "not_exact": "not exact",
+    "ratio": "drystone / it",
+}
 
 
 def heap(boxes: int, friction: float, seed: int = 0) -> ds.Scene:
@@ -109,29 +119,16 @@ def main() -> None:
     results.add_output(parser)
     arguments = parser.parse_args()
     chosen = [SIMULATORS[name] for name in SIMULATORS if name in arguments.simulators]
-    ready = [simulator for simulator in chosen if not simulator.missing()]
-    for simulator in ready:
-        simulator.prepare()
-    base = results.path_in(arguments.output)
-    path = base.with_name(base.name + "-heaps-in-plane.csv")
-    shown = ("blocks", "friction", "simulator", "microseconds", "worst_ms", "not_exact", "ratio")
-    table = Table("boxes", "friction", "", "us a step", "worst, ms", "not exact", "drystone / it")
-    lines: list[dict[str, object]] = []
+    ready = kept_table.ready(chosen)
+    table = KeptTable(arguments.output, "heaps-in-plane", COLUMNS, SHOWN)
     for friction in arguments.friction:
         for boxes in arguments.boxes:
-            for line in measure(boxes, friction, ready):
-                lines.append(line)
-                table.add_row(*(str(line[column]) for column in shown))
-            results.write_lines(path, COLUMNS, lines)
-    console = Console()
-    console.width = max(console.width, 100)
-    console.print(table)
+            table.add(measure(boxes, friction, ready))
+    notes = []
     for friction in arguments.friction:
-        grown = ", ".join(f"{s.name} {exponent(lines, friction, s.name):.2f}" for s in ready)
-        console.print(f"exponent of the number of boxes, friction {friction:g}: {grown}")
-    for simulator in set(chosen) - set(ready):
-        console.print(f"{simulator.name}: {simulator.missing()}")
-    console.print(f"wrote {path}", soft_wrap=True)
+        grown = ", ".join(f"{s.name} {exponent(table.lines, friction, s.name):.2f}" for s in ready)
+        notes.append(f"exponent of the number of boxes, friction {friction:g}: {grown}")
+    table.show([simulator for simulator in chosen if simulator not in ready], notes)
 
 
 if __name__ == "__main__":

@@ -19,12 +19,11 @@ import argparse
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rich.console import Console
-from rich.table import Table
-
 import drystone as ds
 import fastest_run
+import kept_table
 import results
+from kept_table import KeptTable
 from simulators import Simulator
 from simulators.base import Velocities
 from simulators.drystone import Drystone
@@ -41,6 +40,14 @@ COLUMNS = (
 )
 """Explained in benchmarks/README.md."""
 
+SHOWN = {
+    "scene": "",
+    "simulator": "",
+    "microseconds": "us a step",
+    "worst_ms": "worst, ms",
+    "not_exact": "not exact",
+    "ratio": "drystone / it",
+}
 FRICTION = 0.6
 
 
@@ -119,24 +126,12 @@ def main() -> None:
     results.add_output(parser)
     arguments = parser.parse_args()
     every: list[Simulator] = [Drystone("full"), MuJoCo(cone="elliptic"), Rapier()]
-    ready = [simulator for simulator in every if not simulator.missing()]
-    for simulator in ready:
-        simulator.prepare()
-    base = results.path_in(arguments.output)
-    path = base.with_name(base.name + "-impacts.csv")
-    shown = ("scene", "simulator", "microseconds", "worst_ms", "not_exact", "ratio")
-    table = Table("", "", "us a step", "worst, ms", "not exact", "drystone / it")
-    lines: list[dict[str, object]] = []
+    ready = kept_table.ready(every)
+    table = KeptTable(arguments.output, "impacts", COLUMNS, SHOWN)
     for name in arguments.kinds:
         for size in KINDS[name].sizes:
-            for line in measure(name, size, ready):
-                lines.append(line)
-                table.add_row(*(str(line[column]) for column in shown))
-            results.write_lines(path, COLUMNS, lines)
-    console = Console()
-    console.width = max(console.width, 100)
-    console.print(table)
-    console.print(f"wrote {path}", soft_wrap=True)
+            table.add(measure(name, size, ready))
+    table.show(missing=[simulator for simulator in every if simulator not in ready])
 
 
 if __name__ == "__main__":
