@@ -170,6 +170,8 @@ def test_bad_input() -> None:
     world = ds.World(scene)
     with pytest.raises(ds.SimulationError, match='block "1": force is NaN'):
         world.apply_force("1", (float("nan"), 0))
+    with pytest.raises(ds.SimulationError, match='block "1": at is NaN'):
+        world.apply_force("1", (1, 0), at=(0, float("nan")))
     with pytest.raises(ds.SimulationError, match="fixed"):
         world.apply_impulse("ground", (1, 0))
     overlapping = ds.Scene()
