@@ -359,3 +359,9 @@ def test_a_joint_is_never_taken_as_free(tmp_path: Path, cli: Cli) -> None:
     assert (ran.status, "is welded" in ran.out) == (0, True)
     with pytest.raises(FormatError, match="joints must be"):
         mjcf(tmp_path, door, joints="free")
+
+
+def test_one_piece_is_not_many(cli: Cli, tmp_path: Path) -> None:
+    mjcf(tmp_path, '<body name="a"><freejoint/><geom type="box" size="1 1 1"/></body>')
+    ran = cli("import", tmp_path / "model.xml")
+    assert ran.out.splitlines()[0].rstrip() == "MJCF: 1 body, 0 of them fixed, 1 convex piece"
