@@ -98,7 +98,8 @@ def solve(
     - `J` (d k, n), a NumPy array or SciPy sparse matrix: contact after contact the row of the
       normal, then of the tangents, square to it and to one another. J v is the velocity of the
       second body relative to the first; positive along the normal means that they part.
-    - `mu`, one for all or (k,): coefficients of friction, zero or more.
+    - `mu`, one for all or (k,): coefficients of friction, zero or more. Above 100 it counts as 100:
+      nothing slides unless it is pushed within 0.6 degrees of the face.
     - `free` (n,): the velocities at the end of the step if there were no contacts. m/s, rad/s.
     - `offset`, one for all or (k,): how fast a contact may close, gap / dt, m/s. Negative: how fast
       it has to part.

@@ -138,7 +138,7 @@ BAD = {
     "a scene mistyped": (["simulate", "fallng_column"], ["did you mean", "falling_column"]),
     "a scene mistyped, with parameters": (["check", "colunm:3"], ["colunm:3", '"column"']),
     "no such parameter": (["plan", "column:m=3"], ["column", "m", "n"]),
-    "a parameter too many": (["plan", "column:3,0,7"], ["column", "7"]),
+    "a parameter too many": (["plan", "column:3,0,7"], ["column", "7 is one too many"]),
     "a parameter that is no number": (["plan", "column:many"], ["column", "n", "many"]),
     "a parameter out of range": (["plan", "column:-3"], ["column", "-3"]),
     "no such block": (["check", "column:3", "--blocks", "9"], ["9"]),
@@ -149,6 +149,7 @@ BAD = {
     "no thread": (["plan", "column:3", "--threads", "0"], ["--threads"]),
     "threads for a folder": (["plan", ".", "--threads", "2"], ["--threads", "--workers"]),
     "nothing to check": (["check"], ["SCENE"]),
+    "no such folder to plan": (["plan", "nowhere", "-o", "plans"], ["nowhere: no such file"]),
     "a picture of another kind": (["check", "column:3", "-o", "x.gif"], [".svg", ".png"]),
     "nowhere to write": (["check", "column:3", "-o", "no/such/x.svg"], ["no/such/x.svg"]),
     "no such scene to write": (["scene", "colum"], ["colum", 'did you mean "column"']),
@@ -223,6 +224,19 @@ def test_answers_are_written_as_they_are_printed(cli: Cli, command: str, tmp_pat
     assert told.keys() == here.keys()
     timed = ("seconds", "test_seconds", "records", "whole")
     assert all(told[key] == here[key] for key in told if key not in timed)
+
+
+@pytest.mark.parametrize("command", ["", "scene", "bench"])
+def test_no_command_shows_the_help_and_no_empty_line(cli: Cli, command: str) -> None:
+    ran = cli(*command.split())
+    assert (ran.status, ran.err) == (2, "")
+    assert "Usage: drystone" in ran.out
+
+
+def test_friction_that_does_not_help_is_no_number(cli: Cli) -> None:
+    ran = cli("margin", "arch:thickness=0.1")
+    assert ran.status == 1
+    assert "No friction, however much, makes it stand." in ran.out
 
 
 def test_version(cli: Cli) -> None:

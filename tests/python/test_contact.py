@@ -161,7 +161,29 @@ def test_nothing_to_solve() -> None:
 @pytest.mark.parametrize("size", [1e200, 1e307])
 def test_what_overflows_is_not_solved(size: float) -> None:
     s = contact.solve(np.eye(2), [[0.0, 1.0], [1.0, 0.0]], 0.5, (size, -size))
-    assert s.status == "limit" or np.isfinite(s.error)
+    assert s.status == "limit"
+    assert not np.isfinite(s.error)
+
+
+@pytest.mark.parametrize("mu", [1e2, 1e4, 1e6, 1e9, 1e300])
+def test_great_friction_stops_what_falls(mu: float) -> None:
+    """Nothing slides: the velocities are 0, and the impulses are minus the momentum."""
+    s = contact.solve(np.eye(3), np.eye(3), mu, [-1, 2, 0])
+    assert s.status == "solved"
+    np.testing.assert_allclose(s.velocities, [0, 0, 0], atol=1e-7)
+    np.testing.assert_allclose(s.impulses, [1, -2, 0], atol=1e-7)
+
+
+@pytest.mark.parametrize("mu", [1e4, 1e6, 1e8])
+def test_great_friction_lets_nothing_in(mu: float) -> None:
+    """No contact closes, however little of that the error sees at so flat a cone."""
+    random = np.random.default_rng(1)
+    for _ in range(100):
+        J = random.normal(size=(3 * random.integers(1, 8), 12))
+        free = random.normal(size=12)
+        s = contact.solve(np.ones(12), J, mu, free, dimension=3)
+        closing = -(J @ s.velocities)[::3].min()
+        assert s.status == "limit" or closing < 100 * s.tolerance
 
 
 @pytest.mark.parametrize(
@@ -174,8 +196,12 @@ def test_what_overflows_is_not_solved(size: float) -> None:
         ({"M": np.eye(6) * 1j}, "real numbers"),
         ({"J": np.zeros((12, 5))}, "J has 5 columns"),
         ({"J": np.zeros((13, 6))}, "J has 13 rows"),
-        ({"J": np.full((12, 6), np.inf)}, "J"),
+        ({"J": np.full((12, 6), np.inf)}, r"^J\[0, 0\] is inf"),
+        ({"J": np.diag([1, np.nan])[[0, 0, 1, *[0] * 9]][:, [0, 0, 0, 1, 0, 0]]}, r"^J\[2, 3\]"),
+        ({"M": [[1.0, 0.0], [0.0]]}, "M must hold real numbers"),
         ({"mu": -0.1}, "friction of contact 0"),
+        ({"mu": None}, "mu must hold real numbers, not None"),
+        ({"mu": [0.5, None, 0.5, 0.5]}, "mu must hold real numbers"),
         ({"mu": [0.5] * 5}, "mu is of shape|J has 12 rows"),
         ({"free": [0] * 5 + [np.nan]}, "free 5 is not finite"),
         ({"free": [[0.0] * 6]}, "free must be a vector"),

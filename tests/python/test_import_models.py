@@ -112,6 +112,28 @@ def test_frames_replicas_includes_and_classes(tmp_path: Path) -> None:
     assert ds.check(scene).stable
 
 
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ('pos="0 0 x"', "box: pos: not numbers: '0 0 x'"),
+        ('quat="0 0 0 0"', "box: quat: '0 0 0 0' is no orientation"),
+        ('euler="0 0"', "box: euler: needs 3 numbers, not '0 0'"),
+    ],
+)
+def test_a_frame_that_is_none_is_told_by_its_body(tmp_path: Path, given: str, message: str) -> None:
+    with pytest.raises(FormatError) as raised:
+        mjcf(tmp_path, f'<body name="box" {given}><geom type="box" size="1 1 1"/></body>')
+    assert f"model.xml: {message}" in str(raised.value)
+
+
+def test_a_file_that_includes_itself_is_told_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(FormatError, match=r"model\.xml: it includes 'model\.xml'"):
+        mjcf(Path(), '<include file="model.xml"/>')
+
+
 def test_a_body_that_cannot_be_taken_does_not_stop_the_rest(tmp_path: Path) -> None:
     imported = mjcf(
         tmp_path,
@@ -337,3 +359,9 @@ def test_a_joint_is_never_taken_as_free(tmp_path: Path, cli: Cli) -> None:
     assert (ran.status, "is welded" in ran.out) == (0, True)
     with pytest.raises(FormatError, match="joints must be"):
         mjcf(tmp_path, door, joints="free")
+
+
+def test_one_piece_is_not_many(cli: Cli, tmp_path: Path) -> None:
+    mjcf(tmp_path, '<body name="a"><freejoint/><geom type="box" size="1 1 1"/></body>')
+    ran = cli("import", tmp_path / "model.xml")
+    assert ran.out.splitlines()[0].rstrip() == "MJCF: 1 body, 0 of them fixed, 1 convex piece"

@@ -17,6 +17,7 @@ import pytest
 
 import drystone as ds
 from drystone import lcp
+from drystone.paper import motion, table
 
 WAIT = 0.5
 """Seconds: the most between Ctrl-C and its effect."""
@@ -127,6 +128,19 @@ def test_a_solver_keeps_its_rows_and_its_vector() -> None:
     answer = solver.solve()
     assert answer.status == "solved"
     np.testing.assert_allclose(answer.w[:200], lcp.solve(M[:200, :200], q[:200]).w, atol=1e-7)
+
+
+def test_a_table_of_the_paper() -> None:
+    """What was cut short has done less work, which no table may show."""
+    long = table.Example("Column 400", lambda: ds.scenes.column(400), {})
+    interrupted(lambda: table.measure(examples=[long]))
+
+
+def test_motions_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
+    long = motion.Motion("Column", lambda: ds.scenes.column(20), 1_000_000, "")
+    monkeypatch.setattr(motion, "MOTIONS", [long])
+    monkeypatch.setattr(motion, "REPEATS", 1)
+    interrupted(motion.measure_motions)
 
 
 @pytest.mark.parametrize("method", ["equilibrium", "lcp"])

@@ -46,7 +46,9 @@ def test_every_structure_bears_the_margin() -> None:
 def test_what_has_not_the_margin_is_said() -> None:
     plan = ds.plan(ds.scenes.column(11, friction=2.0), margin=0.11)
     assert plan.status == "whole_falls"
-    assert str(plan).startswith("With a margin of 0.11 g: no order")
+    assert str(plan).startswith(
+        "With a margin of 0.11 g: no order: the complete assembly does not bear it; "
+    )
 
 
 def test_an_order_may_have_to_be_another_one() -> None:

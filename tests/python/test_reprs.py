@@ -177,3 +177,14 @@ def test_every_answer_is_one_line_however_large(tmp_path: Path) -> None:
     assert not dict(long)
     missing = {kind.__name__ for kind in public_types() - met}
     assert not missing, f"no answer of these types was looked at: {missing}"
+
+
+def test_one_is_not_many() -> None:
+    scene = ds.Scene()
+    scene.add_box((0, 0), (1, 1), name="alone")
+    scene.add_load("alone", (1, 0))
+    assert repr(scene) == "<Scene: 1 body, 0 of them fixed, 1 load, friction 0.5>"
+    assert repr(scene.view()) == "<Page: plan, 1 frame of 1 body>"
+    world = ds.World(scene)
+    world.step()
+    assert repr(world) == "<World: 1 body after 1 step of 0.004167 s>"

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+import io
 import json
 import os
 import signal
@@ -11,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import drystone as ds
 from at_work import MANY_TIMES_ENOUGH, at_work
@@ -170,6 +173,8 @@ def test_bad_input() -> None:
     world = ds.World(scene)
     with pytest.raises(ds.SimulationError, match='block "1": force is NaN'):
         world.apply_force("1", (float("nan"), 0))
+    with pytest.raises(ds.SimulationError, match='block "1": at is NaN'):
+        world.apply_force("1", (1, 0), at=(0, float("nan")))
     with pytest.raises(ds.SimulationError, match="fixed"):
         world.apply_impulse("ground", (1, 0))
     overlapping = ds.Scene()
@@ -331,3 +336,11 @@ def test_a_wall_that_is_hit_is_not_left_to_pivots() -> None:
     assert run.finished
     assert (run.pivots * run.rows).max() < 4e6
     assert not run.motionless[-1].all()
+
+
+def test_writing_a_run_says_so(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    said = io.StringIO()
+    command = importlib.import_module("drystone.cli.simulate")
+    monkeypatch.setattr(command, "console", lambda **_: Console(file=said, force_terminal=True))
+    assert cli("simulate", "fall7", "--steps", "2", "-o", tmp_path / "run.npz").status == 0
+    assert "writing " in said.getvalue()

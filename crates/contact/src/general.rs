@@ -25,7 +25,7 @@ pub struct Matrices {
     /// `J'` (n, dimension contacts): rows of J as columns, contact after contact, the normal first, then tangents square to it and to
     /// one another.
     pub jacobian: Columns,
-    /// mu of every contact, not negative.
+    /// mu of every contact, not negative; what is above [`MOST_FRICTION`](crate::MOST_FRICTION) counts as that.
     pub friction: Vec<f64>,
     /// `v*` (n,), the velocities without contacts.
     pub free: Vec<f64>,

@@ -64,5 +64,5 @@ mod wide;
 pub use error::ContactError;
 pub use general::Matrices;
 pub use problem::{Bodies, Contact};
-pub use settings::{RELATIVE_TOLERANCE, Settings};
+pub use settings::{MOST_FRICTION, RELATIVE_TOLERANCE, Settings};
 pub use solution::{Counts, Solution, Status};

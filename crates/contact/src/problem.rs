@@ -23,7 +23,7 @@ pub struct Contact {
     /// For each of the two, rows of as many entries as a body has unknowns, along the normal first and then along one (in the
     /// plane) or two tangents square to it: the relative velocity along them is the sum of the rows times the bodies' velocities. 1 and m.
     pub jacobian: [[[f64; 6]; 3]; 2],
-    /// mu, not negative.
+    /// mu, not negative; what is above [`MOST_FRICTION`](crate::MOST_FRICTION) counts as that.
     pub friction: f64,
     /// c: how fast the contact may close, m/s; gap / dt, or negative where it has to part.
     pub offset: f64,

@@ -83,7 +83,8 @@ pub(crate) fn solve<const B: usize, const D: usize>(
     }
     let fastest = (0..system.len()).map(|k| speed(system, k)).fold(0.0, f64::max);
     let tolerance = settings.tolerance.unwrap_or(settings.relative_tolerance * fastest.max(settings.scale));
-    let (mut counts, mut worst) = (Counts::default(), 0.0_f64);
+    // No tolerance is a share of a speed that overflows.
+    let (mut counts, mut worst) = (Counts::default(), if fastest.is_finite() { 0.0_f64 } else { f64::INFINITY });
     let mut place = vec![0; system.free.len()];
     for (contacts, chunks) in islands(system) {
         chunks.iter().enumerate().for_each(|(at, &chunk)| place[chunk] = at as u32);

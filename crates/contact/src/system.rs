@@ -6,6 +6,7 @@
 use crate::{
     law::{self, dot},
     local::Local,
+    settings::MOST_FRICTION,
 };
 
 /// Contacts of D components over chunks of B unknowns.
@@ -67,7 +68,7 @@ impl<const B: usize, const D: usize> System<B, D> {
         let rows = &self.rows[first..];
         let normal = std::array::from_fn(|k| own(rows, 0, k));
         let tangent = std::array::from_fn(|k| own(rows, k, k));
-        self.contacts.push(Local::new(friction, normal, tangent));
+        self.contacts.push(Local::new(friction.min(MOST_FRICTION), normal, tangent));
         self.offsets.push(offset);
         self.turns.push(turn);
         self.starts.push(self.rows.len() as u32);

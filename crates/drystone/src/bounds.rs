@@ -50,7 +50,7 @@ pub const FRICTION: Bounds = Bounds { least: 0.0, most: 1e6, unit: "", advice: "
 /// In motion a greater coefficient counts as this one: nothing slides where its load leans by up to 89.4 degrees from the normal.
 /// The iteration for sliding contacts (`simulate/solve/pivots.rs`) contracts by mu^2 / (1 + mu^2), and the friction at a contact's own
 /// rounding of speeds is mu times that: from 1e3 on steps end short of Coulomb's law.
-pub const MOST_FRICTION_IN_MOTION: f64 = 100.0;
+pub const MOST_FRICTION_IN_MOTION: f64 = drystone_contact::MOST_FRICTION;
 
 /// Contact tolerances, metres: from the default one of the thinnest block to the size of the largest.
 pub const TOLERANCE: Bounds = Bounds { least: 1e-18, most: 1e12, unit: " m", advice: UNITS };

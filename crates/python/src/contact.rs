@@ -64,7 +64,14 @@ pub fn contact_solve(
     let start = start.map(|start| values(&start));
     let settings = Settings { tolerance, scale, ..Settings::default() };
     let solution = interruptible(py, || {
-        let named = |what: &str, error: LcpError| format!("{what}: {error}");
+        let named = |what: &str, error: LcpError| match error {
+            LcpError::MatrixNotFinite { row, column, value } => {
+                // J's rows are the core's columns.
+                let (row, column) = if what == "J" { (column, row) } else { (row, column) };
+                format!("{what}[{row}, {column}] is {value}: every entry must be finite")
+            }
+            error => format!("{what}: {error}"),
+        };
         let (indptr, indices, data) = mass;
         let mass = SparseColumns::new(free.len(), indptr, indices, data).map_err(|error| named("M", error))?;
         let (indptr, indices, data) = jacobian;

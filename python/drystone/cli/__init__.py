@@ -95,7 +95,8 @@ def _speaks(error: BaseException) -> bool:
 def _complain(message: str) -> int:
     from drystone.common.text import shown
 
-    if sys.stderr is not None:
+    # Where the help was shown instead there is nothing to say.
+    if message and sys.stderr is not None:
         with contextlib.suppress(OSError, ValueError):  # nobody is there to be told
             print("drystone: " + shown(" ".join(message.split())), file=sys.stderr, flush=True)
     return BAD_INPUT

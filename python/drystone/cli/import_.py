@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from drystone.cli.errors import InputError
 from drystone.cli.inputs import STANDARD, listed, reporting_files
 from drystone.cli.output import console
-from drystone.common.text import MOST_ROWS, shown
+from drystone.common.text import MOST_ROWS, counted, shown
 from drystone.imports import Imported, load
 from drystone.report.tables import cut, table
 
@@ -77,10 +77,10 @@ def _print(imported: Imported, output: Path | None) -> None:
     pieces = sum(len(body.pieces) for body in bodies if body.triangles is None)
     surfaces = sum(body.triangles is not None for body in bodies)
     fixed = sum(body.fixed for body in bodies)
-    count = f"{len(bodies)} {'body' if len(bodies) == 1 else 'bodies'}"
+    count = f"{counted(len(bodies), 'body', 'bodies')}, {fixed} of them fixed"
     out.print(
-        f"{imported.format}: {count}, {fixed} of them fixed, {pieces} convex pieces"
-        + (f", {surfaces} surfaces" if surfaces else ""),
+        f"{imported.format}: {count}, {counted(pieces, 'convex piece')}"
+        + (f", {counted(surfaces, 'surface')}" if surfaces else ""),
         style="bold",
     )
     out.print(_bodies(imported))

@@ -80,10 +80,13 @@ def parameters_of(builder: Callable[..., Scene], text: str) -> dict[str, int | f
     for place, part in enumerate(filter(None, text.split(","))):
         key, equals, value = part.partition("=")
         if not equals:
-            key, value = (names[place] if place < len(names) else ""), part
+            if place >= len(names):
+                takes = ", ".join(names)
+                raise InputError(f"{builder.__name__}: {part} is one too many: it takes {takes}")
+            key, value = names[place], part
         if key not in signature.parameters:
             raise InputError(
-                f"{builder.__name__} has no parameter {key or part!r}: it takes {', '.join(names)}"
+                f"{builder.__name__} has no parameter {key!r}: it takes {', '.join(names)}"
             )
         given[key] = _number(value, signature.parameters[key].annotation, builder.__name__, key)
     return given

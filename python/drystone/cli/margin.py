@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -48,8 +49,14 @@ def _print(found: Margin, picture: Path | None) -> None:
     colour = "yellow" if not solved else "green" if found.acceleration > 0.0 else "red"
     out.print(str(found), style=f"bold {colour}")
     if solved:
-        out.print(f"Stands with {found.friction:.6g} times its friction and more.")
+        out.print(_of_friction(found.friction))
     if found.mechanism:
         out.print(motion_table(found.mechanism))
     if picture is not None:
         out.print(said_of(picture), soft_wrap=True)
+
+
+def _of_friction(factor: float) -> str:
+    if math.isinf(factor):
+        return "No friction, however much, makes it stand."
+    return f"Stands with {factor:.6g} times its friction and more."

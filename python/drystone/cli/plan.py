@@ -59,8 +59,9 @@ def run(
         )
     if strong and (margin or order != "any"):
         raise InputError("--strong goes without --margin and --order robust")
-    picture = picture_path(output, PAGE, JSON, *FILMS)
+    # First, as a folder that is not there must not be told what a picture is called.
     scene = load_scene(scene_name)
+    picture = picture_path(output, PAGE, JSON, *FILMS)
     in_the_way = None if obstacles is None else load_scene(obstacles)
     with PlanProgress() as progress:
         found = plan(

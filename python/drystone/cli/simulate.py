@@ -19,7 +19,7 @@ from drystone.cli.output import console, facts
 from drystone.common.cones import Pyramid
 from drystone.common.files import FILMS, PAGE, RUN
 from drystone.common.progress import RunProgress
-from drystone.common.text import counted
+from drystone.common.text import counted, shown
 from drystone.common.units import quantity
 from drystone.motion.modes import Formulation, Reuse
 from drystone.motion.run import Run
@@ -66,12 +66,20 @@ def run(
             if kind_of(output) == "film":
                 save_film(made, output)
             else:
-                made.save(output)
+                _save(made, output)
     if as_json:
         print(json.dumps(made.to_dict(), indent=2))
     else:
         _print(made, output)
     return {"finished": 0, "interrupted": INTERRUPTED}.get(made.ending, 1)
+
+
+def _save(made: Run, output: Path) -> None:
+    """Says so meanwhile: a run of a million steps takes seconds to compress."""
+    from rich.text import Text
+
+    with console(stderr=True).status(Text(f"writing {shown(str(output))}")):
+        made.save(output)
 
 
 def _print(made: Run, output: Path | None) -> None:

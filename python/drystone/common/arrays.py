@@ -17,16 +17,18 @@ def floats(
 ) -> NDArray[np.float64]:
     """As contiguous floats. TypeError, also for text, or an `error` names `what` if they are none,
     and what is `wanted`."""
-    if np.iscomplexobj(value):
-        raise error(f"{what} must {wanted}, not complex ones")
     try:
         given = np.asarray(value)
         if given.dtype.kind in "SU":
             raise TypeError
-        made = np.asarray(given, dtype=np.float64)
+        if given.dtype.kind == "O" and any(one is None for one in given.flat):
+            raise ValueError  # NumPy takes it as nan
+        made = np.asarray(given, dtype=None if given.dtype.kind == "c" else np.float64)
     except (TypeError, ValueError, OverflowError) as reason:
         fault = TypeError if isinstance(reason, TypeError) else error
         raise fault(f"{what} must {wanted}, not {value!r:.60}") from None
+    if made.dtype.kind == "c":
+        raise error(f"{what} must {wanted}, not complex ones")
     return np.ascontiguousarray(made) if made.ndim else made
 
 

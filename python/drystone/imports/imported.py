@@ -182,7 +182,7 @@ def load(
         collected.lay_planes()
         collected.transform(scale, UP[up])
     except (FormatError, MeshError) as error:
-        if live or str(source) in str(error):
+        if live or str(error).startswith(str(source)):
             raise
         raise type(error)(f"{source}: {error}") from None
     except (OSError, MemoryError, DrystoneError):

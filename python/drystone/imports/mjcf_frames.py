@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+ORIENTATIONS = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
+"""Attributes that turn a frame; the first that is given counts."""
+
+
 @dataclass(frozen=True, slots=True)
 class Frames:
     """How a model writes angles, as its <compiler> says."""
@@ -30,9 +34,13 @@ class Frames:
         return cls(compiler.get("angle", "degree") == "degree", compiler.get("eulerseq", "xyz"))
 
     def pose(self, attributes: dict[str, str], position: str = "pos") -> Pose:
-        """The frame that an element's attributes give."""
-        at = values(attributes.get(position, "0 0 0"), 3, position)
-        return Pose(np.array(at), self.rotation(attributes))
+        """The frame that an element's attributes give; FormatError with its name, if it has one."""
+        try:
+            at = values(attributes.get(position, "0 0 0"), 3, position)
+            return Pose(np.array(at), self.rotation(attributes))
+        except FormatError as error:
+            name = attributes.get("name")
+            raise (FormatError(f"{name}: {error}") if name else error) from None
 
     def rotation(self, attributes: dict[str, str]) -> NDArray[np.float64]:
         """The rotation matrix (3, 3) of an element's attributes."""
@@ -52,8 +60,12 @@ class Frames:
                 return _from_axes(six[:3], six[3:])
             if "zaxis" in attributes:
                 return _shortest_turn(np.array(values(attributes["zaxis"], 3, "zaxis")))
+        except FormatError:
+            raise
         except (ValueError, FloatingPointError) as error:
-            raise FormatError(f"orientation {attributes}: {error}") from None
+            given = next(key for key in ORIENTATIONS if key in attributes)
+            text = attributes[given]
+            raise FormatError(f"{given}: {text!r} is no orientation ({error})") from None
         return np.eye(3)
 
 

@@ -270,7 +270,8 @@ class World(Adding, Drawn):
         return type(self).restore, (self.snapshot(),)
 
     def __repr__(self) -> str:
-        return f"<World: {len(self.names)} bodies after {self.steps} steps of {self.dt:.4g} s>"
+        bodies = counted(len(self.names), "body", "bodies")
+        return f"<World: {bodies} after {counted(self.steps, 'step')} of {self.dt:.4g} s>"
 
 
 def _bytes(snapshot: bytes) -> bytes:

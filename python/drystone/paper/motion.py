@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drystone import scenes
-from drystone.motion.modes import REUSE
+from drystone.motion.modes import REUSE, Reuse
 from drystone.motion.run import Run
 from drystone.motion.simulation import simulate
 from drystone.paper.plain import plain_table
@@ -115,15 +115,19 @@ def measure_motions(announce: Callable[[str], None] = lambda what: None) -> list
     for motion in MOTIONS:
         announce(motion.name)
         scene = motion.build()
-        rounds = [
-            {mode: simulate(scene, steps=motion.steps, reuse=mode) for mode in MODES}
-            for _ in range(REPEATS)
-        ]
+        rounds = [{mode: _run(scene, motion.steps, mode) for mode in MODES} for _ in range(REPEATS)]
         fastest = {
             mode: np.min([runs[mode].solve_seconds for runs in rounds], axis=0) for mode in MODES
         }
         measured.append(Measured(motion, rounds[0], fastest))
     return measured
+
+
+def _run(scene: Scene, steps: int, mode: Reuse) -> Run:
+    run = simulate(scene, steps=steps, reuse=mode)
+    if run.ending == "interrupted":  # its work is not that of all steps
+        raise KeyboardInterrupt
+    return run
 
 
 def motion_tables(measured: list[Measured]) -> list[Table]:

@@ -85,6 +85,8 @@ def measure(
         for test in COLUMNS:
             announce(f"{example.name} ({test})")
             plans[test] = plan(scene, test, shortcuts=False, threads=1)
+            if plans[test].status == "interrupted":  # its pivots are not those of the whole search
+                raise KeyboardInterrupt
         rows.append(Row(example, plans))
     return rows
 

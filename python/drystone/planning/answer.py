@@ -293,6 +293,8 @@ class Plan(Paged):
                 f"{self._said_of_groups()}{self._said_of_holds()}"
             )
         ending = STRONG_ENDINGS.get(self.status) if self.strong else None
+        if self.margin and self.status == "whole_falls":
+            ending = "No order: the complete assembly does not bear it"
         text = f"{ending or ENDINGS.get(self.status, self.status)}; {work}."
         if self.margin:
             text = f"With a margin of {self.margin:.3g} g: {text[0].lower()}{text[1:]}"

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drystone.common.text import counted
 from drystone.recording.contract import (
     FORMAT,
     VERSION,
@@ -116,7 +117,8 @@ class Recording:
 
     def __repr__(self) -> str:
         frames, bodies = np.shape(self.states)
-        return f"<Recording: {self.kind}, {frames} frames of {bodies} bodies>"
+        of = f"{counted(frames, 'frame')} of {counted(bodies, 'body', 'bodies')}"
+        return f"<Recording: {self.kind}, {of}>"
 
     @property
     def dimension(self) -> Literal[2, 3]:

@@ -373,8 +373,8 @@ class Scene(Adding, Paged):
     def __repr__(self) -> str:
         fixed = sum(body.fixed for body in self._core.bodies())
         where = "" if self.dimension == 2 else " in space"
-        count = f"{len(self)} bodies{where}, {fixed} of them fixed"
-        loads = f", {len(self.loads)} loads" if self.loads else ""
+        count = f"{counted(len(self), 'body', 'bodies')}{where}, {fixed} of them fixed"
+        loads = f", {counted(len(self.loads), 'load')}" if self.loads else ""
         if self.settlements:
             loads += f", {counted(len(self.settlements), 'settlement')}"
         return f"<Scene: {count}{loads}, friction {self.friction:g}>"

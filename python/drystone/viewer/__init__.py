@@ -52,7 +52,7 @@ def scene_page(scene: Scene) -> Page:
 
     >>> import drystone as ds
     >>> scene_page(ds.scenes.column(4))
-    <Page: plan, 1 frames of 4 bodies>
+    <Page: plan, 1 frame of 4 bodies>
     """
     return Page(scene_recording(scene))
 

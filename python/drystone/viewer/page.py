@@ -14,6 +14,7 @@ from pathlib import Path
 from drystone import _core
 from drystone.common import later
 from drystone.common.files import PAGE, PICTURES, ending_of, write_whole
+from drystone.common.text import counted
 from drystone.recording import budget
 from drystone.recording.recording import Recording
 
@@ -89,7 +90,8 @@ class Page:
 
     def __repr__(self) -> str:
         frames, bodies = self.recording.states.shape
-        return f"<Page: {self.recording.kind}, {frames} frames of {bodies} bodies>"
+        of = f"{counted(frames, 'frame')} of {counted(bodies, 'body', 'bodies')}"
+        return f"<Page: {self.recording.kind}, {of}>"
 
 
 @cache

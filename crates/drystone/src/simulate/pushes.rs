@@ -65,7 +65,7 @@ impl<S: Moving> World<S> {
         let body = &self.state.scene.bodies()[i];
         let mut total = S::to_own_axes(body, &wrench_there);
         if let Some(at) = at {
-            self.movable(name, quantity, at.as_ref(), COORDINATE)?;
+            self.movable(name, "at", at.as_ref(), COORDINATE)?;
             let mut force = S::Vector::default();
             force.as_mut().copy_from_slice(split::<S>(&wrench_there).0);
             let levers = S::levers(&S::outline(body), minus_of(minus_of(at, &self.origin), &S::place(&body.pose)));
