@@ -24,7 +24,7 @@ pub(crate) fn from_interior(assembly: &Assembly, blocks: &BlockSet) -> (Membersh
 /// The same with no more than an effort: [`Membership::PivotLimit`] then.
 pub(crate) fn from_interior_within(assembly: &Assembly, blocks: &BlockSet, effort: usize) -> (Membership, ConeSolver) {
     let space = assembly.body_space_with_axes(blocks);
-    let Constrained { motion, forces, found } = space.solve();
+    let Constrained { motion, forces, found } = space.solve_from_ones();
     let (mut solver, rows) = (assembly.equilibrium(), assembly.equilibrium_rows());
     solver.limit_effort(effort);
     for block in assembly.upward().into_iter().filter(|&block| blocks.contains(block)) {

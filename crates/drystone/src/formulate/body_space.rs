@@ -247,6 +247,11 @@ impl<'a> BodySpace<'a> {
         Some(self.constrained(self.problem.solve_while(go_on)?))
     }
 
+    /// Solves it from ones, for a basis: where masses differ by 1e10 its forces keep more digits.
+    pub fn solve_from_ones(&self) -> Constrained {
+        self.constrained(self.problem.solve_from_ones())
+    }
+
     /// The motion nearest to one (of the same blocks) among those in which no contact closes: Gauss's principle with that motion in
     /// place of free fall, and bodies of mass one with the radius of their own as that of gyration.
     pub fn nearest(mut self, motion: &[(usize, Components)]) -> Vec<(usize, Components)> {

@@ -143,6 +143,11 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         Self::from(START, problem)
     }
 
+    /// The same from ones.
+    pub fn from_ones(problem: Scaled<B, D, N>) -> Self {
+        Self::from([1.0, 1.0], problem)
+    }
+
     /// From forces and accelerations on the axes of the cones.
     fn from(start: [f64; 2], problem: Scaled<B, D, N>) -> Self {
         let mut axes = vec![1.0; problem.forces()];

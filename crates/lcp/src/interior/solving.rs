@@ -11,6 +11,8 @@ use super::{
 enum Question<'a> {
     /// (1).
     Motion,
+    /// The same, begun further away.
+    MotionFromOnes,
     /// Forces of these costs, from some that hold the bodies.
     LeastCost(&'a [f64], Vec<f64>),
     GreatestPush,
@@ -32,6 +34,14 @@ impl Gauss {
     /// If bodies have neither 3 nor 6 unknowns.
     pub fn solve_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
         self.by_size(Question::Motion, go_on)
+    }
+
+    /// [`Self::solve`] from forces and accelerations of one: a few iterations more, and fewer digits lost where masses differ by 1e10.
+    ///
+    /// # Panics
+    /// If bodies have neither 3 nor 6 unknowns.
+    pub fn solve_from_ones(&self) -> Found {
+        self.by_size(Question::MotionFromOnes, &mut || true).expect("nobody stops it")
     }
 
     /// Forces that hold the bodies under the largest factor of the push, and the motion in which more of it moves them. Does not
@@ -104,6 +114,7 @@ impl Gauss {
         let scaled = Scaled::<B, D, 2>::new(self);
         match question {
             Question::Motion => Interior::new(scaled),
+            Question::MotionFromOnes => Interior::from_ones(scaled),
             Question::LeastCost(forces, cost) => Interior::of_least_cost(scaled, forces, cost),
             Question::GreatestPush => Interior::of_greatest_push(scaled),
             Question::LeastEnergy => Interior::of_least_energy(scaled),
