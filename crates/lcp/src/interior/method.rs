@@ -334,11 +334,11 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         let mut motion = vec![0.0; self.s.len()];
         self.problem.motion(&self.a, &mut motion);
         motion.iter_mut().zip(&self.cost).for_each(|(motion, cost)| *motion += cost);
-        let apart = motion.iter().zip(&self.s).fold(0.0_f64, |worst, (motion, s)| worst.max((motion - s).abs()));
+        let apart = largest_of([&motion, &self.s], |[motion, s]| (motion - s).abs());
         let power = if self.problem.push.is_empty() { 0.0 } else { self.rate - product(&self.problem.push, &self.a) };
         let worst = largest(&balance).max(apart).max(power.abs());
         let gap = self.f.iter().zip(&self.s).map(|(f, s)| f * s).sum::<f64>() / self.cones.max(1) as f64;
-        let force = largest_of(&self.f, |f| f.abs());
+        let force = largest_of([&self.f], |[f]| f.abs());
         Residuals { balance, motion, power, worst, gap, force }
     }
 
@@ -438,7 +438,7 @@ impl<const B: usize> Step<B> {
         self.da = da;
         problem.motion(&self.da, &mut self.moved);
         self.give_way(problem, scaling, false);
-        let scale = largest_of(&self.df, |df| df.abs()).max(1.0);
+        let scale = largest_of([&self.df], |[df]| df.abs()).max(1.0);
         let enough = (REFINED * scale).max(REFINED_BESIDE * residuals.worst);
         for _ in 0..refinements {
             for body in 0..self.left.len() {

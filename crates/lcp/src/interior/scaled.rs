@@ -221,17 +221,18 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
 
 /// The largest magnitude.
 pub(super) fn largest<const N: usize>(x: &[[f64; N]]) -> f64 {
-    largest_of(x.as_flattened(), |x| x.abs())
+    largest_of([x.as_flattened()], |[x]| x.abs())
 }
 
-/// The largest of some values and zero; eight at once, since each comparison waits for the one before.
-pub(super) fn largest_of<T>(items: &[T], value: impl Fn(&T) -> f64) -> f64 {
+/// The largest of some values and zero, each of one entry of every slice; eight at once, since each comparison waits for the one before.
+pub(super) fn largest_of<const K: usize>(slices: [&[f64]; K], value: impl Fn([f64; K]) -> f64) -> f64 {
     let mut most = [0.0_f64; 8];
-    let mut eights = items.chunks_exact(most.len());
-    for eight in &mut eights {
-        most.iter_mut().zip(eight).for_each(|(most, item)| *most = most.max(value(item)));
+    for start in (0..slices[0].len()).step_by(most.len()) {
+        let eight = slices.map(|slice| &slice[start..slice.len().min(start + 8)]);
+        for (k, most) in most.iter_mut().enumerate().take(eight[0].len()) {
+            *most = most.max(value(eight.map(|slice| slice[k])));
+        }
     }
-    most.iter_mut().zip(eights.remainder()).for_each(|(most, item)| *most = most.max(value(item)));
     most.into_iter().fold(0.0, f64::max)
 }
 

@@ -1,6 +1,6 @@
 //! The scaling of Nesterov and Todd: the W with `W f = W^-1 s`, for rays and for second-order cones of three components.
 
-use super::scaled::{Scaled, ScaledPoint};
+use super::scaled::{Scaled, ScaledPoint, largest_of};
 
 /// W at a pair (f, s) inside the cones.
 pub(super) struct Scaling {
@@ -200,12 +200,7 @@ pub(super) fn way_to_border<const B: usize, const D: usize, const N: usize>(
 }
 
 fn on_rays(x: &[f64], d: &[f64]) -> f64 {
-    let mut steepest = [0.0_f64; 8];
-    let eights = x.chunks(steepest.len()).zip(d.chunks(steepest.len()));
-    for (x, d) in eights {
-        steepest.iter_mut().zip(x.iter().zip(d)).for_each(|(steepest, (x, d))| *steepest = steepest.max(-d / x));
-    }
-    steepest.into_iter().fold(0.0, f64::max).recip()
+    largest_of([x, d], |[x, d]| -d / x).recip()
 }
 
 /// The first positive root of `determinant(x + t d)`, or of the first component.
