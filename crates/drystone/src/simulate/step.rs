@@ -162,20 +162,15 @@ impl<S: Moving> World<S> {
             }
             previous.take(&problem, &motion);
             rounds += 1;
-            let mut next = None;
             if !more.is_empty() {
                 let mut all = [problem.candidates(), &more].concat();
                 all.sort_by_key(|candidate| candidate.id);
                 problem = previous.formulate(all, &options, gravity);
-                if rounds > 1 {
-                    next = law.nearly(state, previous, &problem, free);
-                }
             }
-            nearly = next.is_some();
-            let next = match next {
-                Some(next) => next,
-                None => law.motion(state, previous, &problem, free)?,
-            };
+            let looks_on = rounds > 1 && !more.is_empty();
+            let near = if looks_on { law.nearly(state, previous, &problem, free) } else { None };
+            nearly = near.is_some();
+            let next = near.map_or_else(|| law.motion(state, previous, &problem, free), Ok)?;
             let earlier = std::mem::replace(&mut motion, next);
             motion.add_earlier(&earlier);
         }
