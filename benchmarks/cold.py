@@ -26,11 +26,11 @@ import threads  # noqa: F401  (before anything that loads NumPy)
 # isort: split
 
 import argparse
-import math
 import sys
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import TypeVar
 
 import numpy as np
 from rich.console import Console
@@ -43,6 +43,8 @@ from cold_scenes import FAMILIES, Build, Family
 from drystone import _core
 from drystone.common.cones import FACETS
 
+T = TypeVar("T")
+
 REPEATS = 3
 SHORT = 0.1
 """Seconds: what is shorter is repeated more often, until the repetitions take so long together."""
@@ -54,23 +56,23 @@ CAP = 10.0
 """Seconds."""
 
 
-def in_turns(asked: dict[str, Callable[[], Answer]]) -> dict[str, Answer]:
+def in_turns(asked: dict[str, Callable[[], T]], seconds: Callable[[T], float]) -> dict[str, T]:
     """The quickest answer of each in a few rounds, in which everybody takes a turn."""
-    best: dict[str, Answer] = {}
+    best: dict[str, T] = {}
     spent = dict.fromkeys(asked, 0.0)
     left, rounds = list(asked), 0
     while left:
         rounds += 1
         for name in left:
             answer = asked[name]()
-            spent[name] += answer.seconds
-            best[name] = min(best.get(name, answer), answer, key=lambda a: a.seconds)
-        left = [name for name in left if _again(best[name].seconds, spent[name], rounds)]
+            spent[name] += seconds(answer)
+            best[name] = min(best.get(name, answer), answer, key=seconds)
+        left = [name for name in left if _again(seconds(best[name]), spent[name], rounds)]
     return best
 
 
 def _again(best: float, spent: float, rounds: int) -> bool:
-    if 1 <= best < math.inf or rounds >= MOST_REPEATS:
+    if best >= 1 or rounds >= MOST_REPEATS:
         return False
     return rounds < REPEATS or spent < SHORT
 
@@ -83,11 +85,7 @@ def contact_seconds(scene: ds.Scene) -> float:
         structure = _core.Structure(scene._core)
         return time.perf_counter() - begun - structure.set_up_seconds
 
-    best, spent, rounds = math.inf, 0.0, 0
-    while _again(best, spent, rounds):
-        seconds = once()
-        best, spent, rounds = min(best, seconds), spent + seconds, rounds + 1
-    return best
+    return in_turns({"contacts": once}, float)["contacts"]
 
 
 def ours(solver: str, scene: ds.Scene, contacts: float) -> Answer:
@@ -145,7 +143,7 @@ def measure(family: Family, name: str, build: Build, peers: list[Peer]) -> Row:
     for peer in peers:
         if space or not peer.round:
             asked[peer.name] = partial(theirs, peer, scene, gauss)
-    answers = in_turns(asked)
+    answers = in_turns(asked, lambda answer: answer.seconds)
     return Row(family.name, name, blocks, points, contacts, results.load(), answers)
 
 

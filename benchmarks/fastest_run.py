@@ -23,6 +23,12 @@ LONG = 5.0
 COLUMNS = ("scene", "blocks", "friction", "dt", "steps", "simulator", "simulator_version")
 """Of such a table, behind those of `results.WHERE`."""
 
+TIMES = {"microseconds": "us a step", "worst_ms": "worst, ms", "not_exact": "not exact"}
+"""Columns of `times` besides, with their titles where they are shown."""
+
+BESIDE = {**TIMES, "ratio": "drystone / it"}
+"""The same of `beside`."""
+
 
 def common(scene: str, blocks: int, friction: float, steps: int) -> dict[str, object]:
     """What is the same on the lines of all simulators."""

@@ -51,25 +51,10 @@ WIDE = 1.3
 SLOWEST = {"MuJoCo": 200}
 """Boxes from which on a simulator is left out: with more a step takes MuJoCo 10 ms and longer."""
 
-COLUMNS = (
-    *results.WHERE,
-    *fastest_run.COLUMNS,
-    "microseconds",
-    "worst_ms",
-    "not_exact",
-    "ratio",
-)
+COLUMNS = (*results.WHERE, *fastest_run.COLUMNS, *fastest_run.BESIDE)
 """Explained in benchmarks/README.md."""
 
-SHOWN = {
-    "blocks": "boxes",
-    "friction": "friction",
-    "simulator": "",
-    "microseconds": "us a step",
-    "worst_ms": "worst, ms",
-    "not_exact": "not exact",
-    "ratio": "drystone / it",
-}
+SHOWN = {"blocks": "boxes", "friction": "friction", "simulator": "", **fastest_run.BESIDE}
 
 
 def heap(boxes: int, friction: float, seed: int = 0) -> ds.Scene:
@@ -128,7 +113,7 @@ def main() -> None:
     for friction in arguments.friction:
         grown = ", ".join(f"{s.name} {exponent(table.lines, friction, s.name):.2f}" for s in ready)
         notes.append(f"exponent of the number of boxes, friction {friction:g}: {grown}")
-    table.show([simulator for simulator in chosen if simulator not in ready], notes)
+    table.show(chosen, notes)
 
 
 if __name__ == "__main__":

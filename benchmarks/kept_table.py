@@ -39,8 +39,9 @@ class KeptTable:
         self.lines.extend(lines)
         results.write_lines(self.path, self.columns, self.lines)
 
-    def show(self, missing: Iterable[Simulator], notes: Iterable[str] = ()) -> None:
-        """The table, what else there is to say, who is missing, and where the file is."""
+    def show(self, asked: Iterable[Simulator], notes: Iterable[str] = ()) -> None:
+        """The table, what else there is to say, who of those asked is missing, and where the file
+        is."""
         table = Table(*self.shown.values())
         for line in self.lines:
             table.add_row(*(str(line[column]) for column in self.shown))
@@ -49,6 +50,7 @@ class KeptTable:
         console.print(table)
         for note in notes:
             console.print(note)
-        for simulator in missing:
-            console.print(f"{simulator.name}: {simulator.missing()}")
+        for simulator in asked:
+            if missing := simulator.missing():
+                console.print(f"{simulator.name}: {missing}")
         console.print(f"wrote {self.path}", soft_wrap=True)
