@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -12,6 +13,9 @@ import pytest
 import drystone as ds
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+
+if TYPE_CHECKING:
+    from random_structures import Tally
 
 
 def _up(dimension: int, x: float, y: float, z: float) -> tuple[float, ...]:
@@ -163,13 +167,25 @@ def test_falls_of_blocks_that_differ_by_1e8_and_more(family: int, count: int) ->
     The judge of benchmarks/random_structures.py sees them in other units, turned, moved and in
     another order, and proves what falls in rational arithmetic.
     """
+    tally = judged(family, count)
+    assert (dict(tally.wrong), tally.fall, tally.unanswered, tally.virtual) == ({}, 1, 0, 0)
+
+
+def test_a_wall_of_masses_1e10_apart_is_not_borderline() -> None:
+    """Proved by a basis from the interior; a beginning with larger forces leads to none."""
+    tally = judged(19, 184)
+    assert (dict(tally.wrong), tally.borderline, tally.unanswered) == ({}, 0, 0)
+
+
+def judged(family: int, count: int) -> Tally:
+    """A structure of benchmarks/random_structures.py in the plane, as its judge sees it."""
     from random_structures import Tally, judge
     from structures.families import families, named
 
     name, made = list(families(2))[family]
     rng, tally = np.random.default_rng([0, 2, family, count]), Tally()
     judge(named(made(rng), name), rng, tally, name)
-    assert (dict(tally.wrong), tally.fall, tally.unanswered, tally.virtual) == ({}, 1, 0, 0)
+    return tally
 
 
 @pytest.mark.parametrize("count", [71, 332, 384])
