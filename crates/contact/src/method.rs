@@ -6,9 +6,9 @@
 use crate::{
     active_set,
     best::{Best, Goal},
-    drift,
+    drift, lemke,
     newton::Newton,
-    path,
+    path, regions,
     settings::Settings,
     solution::Counts,
     sweep::sweep,
@@ -65,6 +65,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
         state.clone_from(&best.state);
         return best.error;
     };
+    let from_error = (goal, path::FIRST, settings.newton_steps);
     let warm = state.p.iter().any(|p| p[0] > 0.0);
     if warm {
         counts.newton_steps += active_set::solve(system, &mut newton, &mut best, goal, FROM_START[D - 2]);
@@ -73,17 +74,25 @@ pub(crate) fn solve<const B: usize, const D: usize>(
     }
     // In the plane a way through the pieces leads to the answer; where not, one that begins elsewhere may.
     if D == 2 && warm && best.error > goal.end {
-        counts.newton_steps += path::solve(system, &mut newton, state, &mut best, (goal, settings.newton_steps));
+        counts.newton_steps += path::solve(system, &mut newton, state, &mut best, from_error);
     }
     if best.error > goal.tolerance {
         sweeps(system, state, &mut best, (goal.tolerance, SWEEPS), counts);
         if D == 2 {
-            counts.newton_steps += path::solve(system, &mut newton, state, &mut best, (goal, settings.newton_steps));
+            counts.newton_steps += path::solve(system, &mut newton, state, &mut best, from_error);
             state.clone_from(&best.state);
         }
     }
     if best.error > if D == 2 { goal.tolerance } else { goal.end } {
         counts.newton_steps += harden(system, state, &mut best, &mut newton, (goal, settings.newton_steps));
+    }
+    // One from nothing does: of what is in error, or of all.
+    let Settings { newton_steps, changes, from_nothing, .. } = *settings;
+    if D == 2 && changes > 0 && best.error > from_nothing * goal.tolerance {
+        counts.newton_steps += regions::solve(system, &mut newton, &mut best, (goal, changes));
+        if best.error > from_nothing * goal.tolerance {
+            counts.newton_steps += lemke::solve(system, &mut newton, &mut best, (goal, newton_steps, changes));
+        }
     }
     state.clone_from(&best.state);
     best.error

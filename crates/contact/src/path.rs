@@ -1,28 +1,21 @@
-//! The way to the answer through all the sets of contacts that stick, slide and part, one change after the other; in the plane.
+//! From any impulses to the answer, on ways through the sets of contacts that part, stick and slide (`way.rs`); in the plane.
 //!
 //! Any impulses p and the velocities u that they give obey the law for `p - E` and `u - E` (all in m/s), where E is the error of Alart's and Curnier's
-//! natural map there, `E = p - P(p - u)`. E is then taken away in equal parts, `(1 - t) E`. In the plane all is linear in t as long as no contact
-//! changes what it does, and `z = p - u` tells which one does so first. Then it changes, and the way goes on, forward or backward in t,
-//! until t = 1. So Lemke's method goes through complementary bases, and a parametric active-set method through active sets. Where
-//! Newton's method goes round in circles this arrives.
-//!
-//! Each contact gives way by eps about its impulses at the beginning, so that every set has one solution. A change is one of rank one to the
-//! matrix of Newton's method, whose factors are updated.
-//!
-//! Lemke, Bimatrix equilibrium points and mathematical programming, 1965; Eaves and Scarf, The solution of systems of piecewise linear
-//! equations, 1976.
+//! natural map there, `E = p - P(p - u)`. E is then taken away in equal parts, `(1 - t) E`. Where Newton's method goes round in circles this
+//! mostly arrives; from far away the way may be a loop, and Lemke's from nothing leads to the answer (`lemke.rs`).
 
 use crate::{
     best::{Best, Goal},
     drift,
     newton::Newton,
-    place::{Change, Place},
+    place::Place,
     system::{State, System},
+    way::Way,
 };
-use drystone_lcp::interrupt::poll;
 
-/// eps at first, at least and at most; by how much it falls after each way, and grows after one that did not arrive.
-const FIRST: f64 = 1e-2;
+/// eps at first where nothing is known of the state, at least and at most; by how much it falls after each way, and grows after one that did not
+/// arrive.
+pub(crate) const FIRST: f64 = 1e-2;
 const HARDEST: f64 = 1e-7;
 const SOFTEST: f64 = 0.1;
 const HARDER: f64 = 0.1;
@@ -38,28 +31,23 @@ const KEPT: f64 = 0.1;
 /// long.
 const MOST: usize = 400;
 const FOR_A_STEP: usize = 2;
-/// A change of the same contact at the same t, to this, is the same one: the way is closed, and t = 1 is not on it.
-const SAME: f64 = 1e-12;
-/// How far back t may go.
-const BACK: f64 = -10.0;
-/// Updates of the factors after which they are made anew.
-const UPDATES: usize = 40;
 
-/// Follows the way from a state, again with less of eps from where it ended, until the error is small; with the changes that so many Newton steps are worth.
-/// Keeps what is better. Returns the matrices that were factored or updated.
+/// Follows the way from a state, again with less of eps from where it ended, until the error is small. With `first` of eps, and the changes that so many
+/// Newton steps are worth. Keeps what is better. Returns the matrices that were factored or updated.
 pub(crate) fn solve<const B: usize, const D: usize>(
     system: &System<B, D>,
     newton: &mut Newton<B, D>,
     start: &State<B, D>,
     best: &mut Best<B, D>,
-    (goal, most): (Goal, usize),
+    (goal, first, most): (Goal, f64, usize),
 ) -> usize {
     let mut state = start.clone();
-    let (mut eps, mut least, mut steps) = (FIRST, HARDEST, 0);
+    let (mut eps, mut least, mut steps) = (first, HARDEST, 0);
     let (mut failed, mut stale, mut last) = (0, 0, f64::NAN);
     while steps < FOR_A_STEP * most {
         let (mut at, begun) = (state.clone(), steps);
-        if !follow(system, newton, &mut at, eps, &mut steps) {
+        let places = (0..system.len()).map(|k| Place::in_error(system, &state, k, eps)).collect();
+        if !Way::new(system, newton, places, eps).follow(&mut at, MOST, &mut steps) {
             failed += 1;
             if failed == FAILED {
                 break;
@@ -95,154 +83,4 @@ pub(crate) fn solve<const B: usize, const D: usize>(
         least = (AGAIN * least).max(HARDEST);
     }
     steps
-}
-
-/// Follows the way from a state, whose velocities are those of its impulses, to t = 1, and leaves there what contacts do, and its matrix. Counts the
-/// matrices. False if it does not arrive, as where it is a loop through the state.
-fn follow<const B: usize, const D: usize>(
-    system: &System<B, D>,
-    newton: &mut Newton<B, D>,
-    state: &mut State<B, D>,
-    eps: f64,
-    steps: &mut usize,
-) -> bool {
-    let mut way = Way::new(system, newton, state, eps);
-    let (mut t, mut gone) = (0.0, 0.0);
-    let mut changed: Option<(usize, usize)> = None;
-    // Where it was after 1, 2, 4, ... changes (Brent's way to find a cycle).
-    let mut mark = (usize::MAX, f64::NAN);
-    for made in 0..MOST {
-        *steps += 1;
-        if !way.find_direction() {
-            return false;
-        }
-        let forward = changed.is_none_or(|(k, edge)| way.grows(k, edge));
-        let (direction, longest) = if forward { (1.0, 1.0 - t) } else { (-1.0, f64::INFINITY) };
-        let (length, first) = way.first_change(gone, changed.map(|(k, _)| k), direction, longest);
-        gone = direction * length;
-        t += gone;
-        if t.is_nan() || t < BACK {
-            return false;
-        }
-        let Some((k, edge)) = first else {
-            way.end(state, gone);
-            return true;
-        };
-        if mark.0 == k && (t - mark.1).abs() < SAME {
-            return false;
-        }
-        if made.is_power_of_two() {
-            mark = (k, t);
-        }
-        changed = Some((k, way.change(k, edge, gone)));
-    }
-    false
-}
-
-/// Where the way is.
-struct Way<'a, const B: usize, const D: usize> {
-    system: &'a System<B, D>,
-    newton: &'a mut Newton<B, D>,
-    eps: f64,
-    places: Vec<Place<D>>,
-    /// How velocities change with t where no contact gives way to them: the right side of Newton's method.
-    push: Vec<[f64; B]>,
-    /// Updates since the matrix was factored.
-    updates: usize,
-    /// What is updated: buffer.
-    sides: Vec<(u32, [f64; B], [f64; B])>,
-}
-
-impl<'a, const B: usize, const D: usize> Way<'a, B, D> {
-    fn new(system: &'a System<B, D>, newton: &'a mut Newton<B, D>, state: &State<B, D>, eps: f64) -> Self {
-        let places = (0..system.len()).map(|k| Place::new(system, state, k, eps)).collect();
-        let push = vec![[0.0; B]; system.free.len()];
-        let mut way = Self { system, newton, eps, places, push, updates: UPDATES, sides: Vec::new() };
-        (0..system.len()).for_each(|k| way.push(k, 1.0));
-        way
-    }
-
-    /// Adds a contact's part of `push`, or takes it away.
-    fn push(&mut self, k: usize, sign: f64) {
-        let weight = sign / self.system.contacts[k].weight;
-        self.system.give(k, &self.places[k].push.map(|p| p * weight), &mut self.push);
-    }
-
-    /// How velocities change with t. False if the matrix has no inverse.
-    fn find_direction(&mut self) -> bool {
-        let Self { system, newton, eps, places, .. } = self;
-        poll(16 * B * B * system.len());
-        if self.updates == UPDATES {
-            newton.contacts.clear();
-            newton.contacts.extend(places.iter().map(Place::softened));
-            newton.assemble(system, *eps);
-            if !newton.matrix.factor() {
-                return false;
-            }
-            self.updates = 0;
-        }
-        newton.left.clone_from(&self.push);
-        newton.matrix.solve(&mut newton.left);
-        true
-    }
-
-    /// Whether a contact that has crossed an edge goes on into what it does now as t grows.
-    fn grows(&mut self, k: usize, edge: usize) -> bool {
-        let u = self.system.change(k, &self.newton.left);
-        self.places[k].find_rate(&u, self.eps);
-        self.places[k].edges()[edge].1 >= 0.0
-    }
-
-    /// Goes to where the last direction ended, but for the contact that is there already; then how far t may go in this one until a contact
-    /// changes, or `longest`, which one does so, and at which edge.
-    fn first_change(
-        &mut self,
-        gone: f64,
-        there: Option<usize>,
-        direction: f64,
-        longest: f64,
-    ) -> (f64, Option<(usize, usize)>) {
-        let (mut length, mut first) = (longest, None);
-        for (k, place) in self.places.iter_mut().enumerate() {
-            if there != Some(k) {
-                place.go(gone);
-            }
-            place.find_rate(&self.system.change(k, &self.newton.left), self.eps);
-            for (edge, (distance, rate)) in place.edges().into_iter().enumerate() {
-                let rate = direction * rate;
-                if rate < 0.0 && distance < -rate * length {
-                    (length, first) = (distance.max(0.0) / -rate, Some((k, edge)));
-                }
-            }
-        }
-        (length, first)
-    }
-
-    /// A contact crosses an edge of what it does, which it has come to. Returns which edge that is of what it does then.
-    fn change(&mut self, k: usize, edge: usize, gone: f64) -> usize {
-        self.places[k].go(gone);
-        self.push(k, -1.0);
-        let Change { back, sign, left, right } = self.places[k].cross(edge, self.eps);
-        self.push(k, 1.0);
-        let system = self.system;
-        let along = |rows: &[[f64; B]; D], by: &[f64; D]| -> [f64; B] {
-            std::array::from_fn(|c| (0..D).map(|d| by[d] * rows[d][c]).sum())
-        };
-        let side = |at: usize| (system.chunks[at], along(&system.rows[at], &left), along(&system.rows[at], &right));
-        self.sides.clear();
-        self.sides.extend(system.sides(k).map(side));
-        let updated = self.newton.matrix.update(sign / (self.eps * system.contacts[k].weight), &self.sides);
-        self.updates = if updated { self.updates + 1 } else { UPDATES };
-        back
-    }
-
-    fn end(&mut self, state: &mut State<B, D>, gone: f64) {
-        self.places.iter_mut().for_each(|place| place.go(gone));
-        self.newton.parts.clear();
-        self.newton.parts.extend(self.places.iter().map(|place| place.part));
-        for ((p, place), local) in state.p.iter_mut().zip(&self.places).zip(&self.system.contacts) {
-            *p = place.impulse().map(|p| p / local.weight);
-        }
-        self.system.move_by(state);
-    }
 }

@@ -12,7 +12,15 @@ pub struct Settings {
     pub scale: f64,
     /// Most Newton steps in one island; in the plane also half of the changes of contacts on the way through all that they may do.
     pub newton_steps: usize,
+    /// In the plane: most changes, for each contact of an island, on Lemke's way from nothing, which is taken where all else fails. None are allowed
+    /// where a good answer soon is worth more than the exact one.
+    pub changes: usize,
+    /// That way is taken where the error is above so many tolerances.
+    pub from_nothing: f64,
 }
+
+/// Walls that were hit and heaps of 800 boxes took one to ten, walls that were hit hard up to fifty.
+const CHANGES: usize = 60;
 
 /// A tenth of the digits of a double are lost in a well scaled problem, and as many again where friction decides: this
 /// leaves four.
@@ -25,6 +33,13 @@ pub const MOST_FRICTION: f64 = 100.0;
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: None, relative_tolerance: RELATIVE_TOLERANCE, scale: 0.0, newton_steps: 400 }
+        Self {
+            tolerance: None,
+            relative_tolerance: RELATIVE_TOLERANCE,
+            scale: 0.0,
+            newton_steps: 400,
+            changes: CHANGES,
+            from_nothing: 1.0,
+        }
     }
 }

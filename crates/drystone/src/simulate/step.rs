@@ -10,7 +10,7 @@ use super::{
     moving::Moving,
     record::StepRecord,
     settled::Settled,
-    solve::Motion,
+    solve::{Effort, Motion},
     state::State,
     world::World,
 };
@@ -148,16 +148,16 @@ impl<S: Moving> World<S> {
     }
 
     /// Formulates and solves the step; again where bodies then meet of which nothing was before a face of the other. Mostly that is the end of
-    /// it. From the second time on the step is solved only nearly, until nobody meets any more.
+    /// it. From the second time on the step is solved only nearly, until nobody meets any more; and with the full effort only then.
     fn solve(&mut self, free: &[S::Velocity]) -> Result<(ContactProblem<S>, Motion<S>), StepFailure> {
         let Self { state, previous, finder, law, .. } = self;
         let (options, gravity) = (state.options, state.scene.gravity());
         let mut problem = previous.formulate(finder.candidates().copied().collect(), &options, gravity);
-        let mut motion = law.motion(state, previous, &problem, free)?;
+        let mut motion = law.motion(state, previous, &problem, free, Effort::Soon)?;
         let (mut rounds, mut nearly) = (0, false);
         loop {
             let more = contacts::met(finder, state, problem.candidates(), &motion.velocities);
-            if more.is_empty() && !nearly {
+            if more.is_empty() && !nearly && !motion.unfinished {
                 return Ok((problem, motion));
             }
             previous.take(&problem, &motion);
@@ -170,7 +170,8 @@ impl<S: Moving> World<S> {
             let looks_on = rounds > 1 && !more.is_empty();
             let near = if looks_on { law.nearly(state, previous, &problem, free) } else { None };
             nearly = near.is_some();
-            let next = near.map_or_else(|| law.motion(state, previous, &problem, free), Ok)?;
+            let effort = if more.is_empty() && !nearly { Effort::Full } else { Effort::Soon };
+            let next = near.map_or_else(|| law.motion(state, previous, &problem, free, effort), Ok)?;
             let earlier = std::mem::replace(&mut motion, next);
             motion.add_earlier(&earlier);
         }

@@ -14,7 +14,7 @@ use crate::simulate::{
     error::StepFailure,
     formulate::{contact_problem::ContactProblem, restitution::Offsets},
     kinematics::Kinematics,
-    solve::{Motion, PreviousStep, StepProblem, solve},
+    solve::{Effort, Motion, PreviousStep, StepProblem, solve},
     state::State,
 };
 
@@ -34,13 +34,15 @@ pub fn solve_with_rebounds<S: Kinematics>(
     state: &State<S>,
     previous: &mut PreviousStep<S>,
     contacts: &ContactProblem<S>,
-    (free, offsets): (&[S::Velocity], &Offsets),
+    (free, offsets, effort): (&[S::Velocity], &Offsets, Effort),
     gained: impl Fn(&[S::Velocity]) -> [f64; 2],
 ) -> Result<Motion<S>, StepFailure> {
     let restitution = state.options.restitution;
+    // The energy is that of the end.
+    let effort = if offsets.rebound() { Effort::Full } else { effort };
     let solved = |previous: &mut PreviousStep<S>, restitution: f64| {
         let offsets = offsets.with(restitution);
-        solve(state, previous, &StepProblem { contacts, free, offsets: &offsets })
+        solve(state, previous, &StepProblem { contacts, free, offsets: &offsets, effort })
     };
     // What is jammed cannot part everywhere: then with less.
     let mut most_tried = restitution;

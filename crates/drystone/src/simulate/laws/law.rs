@@ -4,14 +4,15 @@ use crate::simulate::{
     error::StepFailure,
     formulate::contact_problem::ContactProblem,
     kinematics::Kinematics,
-    solve::{Motion, PreviousStep},
+    solve::{Effort, Motion, PreviousStep},
     state::State,
 };
 
 /// How the velocities at the end of a step follow from those at its beginning. Contacts before and integration after
 /// are the same for all.
 pub trait Law<S: Kinematics>: Sync {
-    /// Solves a step. `free` (bodies) are the velocities without contacts, `v* = v + h M^-1 F`.
+    /// Solves a step. `free` (bodies) are the velocities without contacts, `v* = v + h M^-1 F`. With less than the full effort the motion may be
+    /// [`unfinished`](Motion::unfinished).
     ///
     /// # Errors
     /// [`StepFailure::Unsolved`].
@@ -21,6 +22,7 @@ pub trait Law<S: Kinematics>: Sync {
         previous: &mut PreviousStep<S>,
         contacts: &ContactProblem<S>,
         free: &[S::Velocity],
+        effort: Effort,
     ) -> Result<Motion<S>, StepFailure>;
 
     /// Velocities near those of [`Self::motion`], where these are found much sooner: enough to see who meets. None otherwise.

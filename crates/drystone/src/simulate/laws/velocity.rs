@@ -5,7 +5,7 @@ use crate::simulate::{
     error::StepFailure,
     formulate::{contact_problem::ContactProblem, free_motion::energy_gained, restitution::Offsets},
     kinematics::Kinematics,
-    solve::{Motion, PreviousStep, StepProblem, solve_nearly},
+    solve::{Effort, Motion, PreviousStep, StepProblem, solve_nearly},
     state::State,
 };
 
@@ -20,9 +20,11 @@ impl<S: Kinematics> Law<S> for VelocityLevel {
         previous: &mut PreviousStep<S>,
         contacts: &ContactProblem<S>,
         free: &[S::Velocity],
+        effort: Effort,
     ) -> Result<Motion<S>, StepFailure> {
         let offsets = Offsets::new(state, contacts, free);
-        solve_with_rebounds(state, previous, contacts, (free, &offsets), |ends| energy_gained(state, ends))
+        let ends = |ends: &[S::Velocity]| energy_gained(state, ends);
+        solve_with_rebounds(state, previous, contacts, (free, &offsets, effort), ends)
     }
 
     fn nearly(
@@ -33,6 +35,6 @@ impl<S: Kinematics> Law<S> for VelocityLevel {
         free: &[S::Velocity],
     ) -> Option<Motion<S>> {
         let offsets = Offsets::new(state, contacts, free).with(state.options.restitution);
-        solve_nearly(state, previous, &StepProblem { contacts, free, offsets: &offsets })
+        solve_nearly(state, previous, &StepProblem { contacts, free, offsets: &offsets, effort: Effort::Soon })
     }
 }

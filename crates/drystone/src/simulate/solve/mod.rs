@@ -15,7 +15,7 @@ mod warm_start;
 pub use active_rows::ActiveRows;
 pub use previous_step::{PreviousStep, RestSolution};
 pub use round_cones::solve_nearly;
-pub use step_problem::{Motion, StepProblem};
+pub use step_problem::{Effort, Motion, StepProblem};
 pub use tolerance::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
 pub use warm_start::SavedStart;
 

@@ -161,6 +161,7 @@ fn motion<S: Kinematics>(previous: &PreviousStep<S>, step: &StepProblem<'_, S>, 
         counts: Counts::default(),
         collisions: 0,
         inconsistent: None,
+        unfinished: false,
     }
 }
 

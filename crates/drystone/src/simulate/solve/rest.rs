@@ -85,6 +85,7 @@ pub fn stay_at_rest<S: Kinematics>(
         counts: *work,
         collisions: 0,
         inconsistent: None,
+        unfinished: false,
     })
 }
 

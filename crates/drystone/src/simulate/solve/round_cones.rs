@@ -6,7 +6,7 @@
 use super::{
     choice,
     previous_step::PreviousStep,
-    step_problem::{Motion, StepProblem},
+    step_problem::{Effort, Motion, StepProblem},
 };
 use crate::{
     contact::candidates::CandidateOf,
@@ -38,20 +38,25 @@ const COARSE_AS_PYRAMIDS: f64 = 0.076;
 /// blocks.
 const AMPLIFIED: f64 = 100.0;
 
-/// Share of the tolerance that is aimed at in the plane, where pivots end so near to the law.
+/// Share of the tolerance that is aimed at in the plane, where pivots end so near to the law; not by what takes long.
 const IN_PLANE: f64 = 0.1;
 
-/// Newton steps in one island, at most. In the plane, where there is another way too, [`LEAST_STEPS`] unless a body is hit; then so many times the contacts.
-/// Of 360 steps of a cube thrown at a wall in space one is not exact with 600, with 400 seven are not. Of 154 problems of a wall of 100 bricks in the plane that
-/// is hit 55 are not solved with 200, 32 with 600; heaps of 800 boxes have nothing of more than 200.
+/// Newton steps in one island, at most; in the plane, where there are other ways too. Of 360 steps of a cube thrown at a wall in space one is not exact with 600,
+/// with 400 seven are not.
 const NEWTON_STEPS: usize = 600;
-const STEPS_TIMES_CONTACTS: usize = 300_000;
-const LEAST_STEPS: usize = 200;
+const STEPS_IN_PLANE: usize = 200;
 
-/// The same where only who meets is asked, and the share of the speeds that is aimed at. Of 158 stones that fall at once and meet others in 14 rounds the
-/// step takes half a second so, 1.15 s with all of them solved.
+/// Changes of each contact on the way from nothing, at most: a wall of 200 bricks that is hit takes a second then. What needs more is not exact.
+const CHANGES: usize = 12;
+
+/// The same where only who meets is asked, and the share of the speeds that is aimed at. Of 158 stones that fall at once and meet others in
+/// 14 rounds the step takes half a second so, 1.15 s with all of them solved.
 const NEARLY_STEPS: usize = 20;
 const NEARLY: f64 = 1e-4;
+
+/// In the plane, with so many contacts, without the way from nothing, which takes long, while it is looked for who meets.
+const SOON_STEPS: usize = 100;
+const LARGE: usize = 400;
 
 /// What round cones make of a step.
 pub enum Round<S: Kinematics> {
@@ -70,6 +75,15 @@ pub fn solve_on_round_cones<S: Kinematics>(
 ) -> Round<S> {
     if !choice::on_round_cones(state, previous, step) {
         return Round::Left;
+    }
+    let soon = step.effort == Effort::Soon && axes::<S>() == 2 && step.contacts.candidates().len() >= LARGE;
+    if soon {
+        let aim = Aim { newton_steps: SOON_STEPS, changes: 0, ..Aim::at_law(state) };
+        let motion = from_impulses(state, step, &impulses_before(previous, step.contacts), aim);
+        if let Some(motion) = motion {
+            previous.forget_pivots();
+            return Round::Solved(Motion { unfinished: !motion.exact, ..motion });
+        }
     }
     let many = axes::<S>() == 3 && step.contacts.len() >= choice::MANY_ROWS;
     match from_impulses_before(state, previous, step) {
@@ -92,7 +106,7 @@ pub fn solve_nearly<S: Kinematics>(
         return None;
     }
     let impulses = impulses_before(previous, step.contacts);
-    from_impulses(state, step, &impulses, Aim { share: NEARLY, newton_steps: NEARLY_STEPS })
+    from_impulses(state, step, &impulses, Aim { share: NEARLY, newton_steps: NEARLY_STEPS, changes: 0 })
 }
 
 /// Whether it is near enough to take the place of pivots that are too hard.
@@ -117,7 +131,7 @@ pub fn from_impulses_before<S: Kinematics>(
     previous: &PreviousStep<S>,
     step: &StepProblem<'_, S>,
 ) -> Option<Motion<S>> {
-    from_impulses(state, step, &impulses_before(previous, step.contacts), Aim::at_law(state, step))
+    from_impulses(state, step, &impulses_before(previous, step.contacts), Aim::at_law(state))
 }
 
 /// Whether it is exact, or its error is within this share of the speeds; where there are none, that is no error.
@@ -136,7 +150,7 @@ pub fn solve_after_pivots<S: Kinematics>(
         return None;
     }
     let nearer = |motion: &Motion<S>| motion.friction_error < pivots.friction_error && is_within(motion, COARSE);
-    from_impulses(state, step, &pivots.impulses, Aim::at_law(state, step)).filter(nearer)
+    from_impulses(state, step, &pivots.impulses, Aim::at_law(state)).filter(nearer)
 }
 
 /// From impulses in world axes, contact after contact, or from none. None without friction: cones are lines then, and pivots exact.
@@ -172,8 +186,15 @@ fn from_impulses<S: Kinematics>(
     let start = Some(start.as_slice()).filter(|start| !start.is_empty());
     let scale = norm(state.scene.gravity().as_ref()) * state.options.dt;
     let tolerance = state.options.coulomb_tolerance;
-    let Aim { share, newton_steps } = aim;
-    let settings = Settings { scale, relative_tolerance: share, newton_steps, ..Settings::default() };
+    let Aim { share, newton_steps, changes } = aim;
+    let settings = Settings {
+        scale,
+        relative_tolerance: share,
+        newton_steps,
+        changes,
+        from_nothing: 1.0 / IN_PLANE,
+        tolerance: None,
+    };
     let solution = bodies.solve(start, &settings).ok()?;
     let speed = solution.tolerance / share;
     let mut velocities = step.free.to_vec();
@@ -204,28 +225,24 @@ fn from_impulses<S: Kinematics>(
         counts: Counts::default(),
         collisions: 0,
         inconsistent: None,
+        unfinished: false,
     })
 }
 
-/// What is aimed at: a share of the speeds, in so many Newton steps.
+/// What is aimed at: a share of the speeds, in so many Newton steps, and changes of each contact.
 struct Aim {
     share: f64,
     newton_steps: usize,
+    changes: usize,
 }
 
 impl Aim {
     /// At Coulomb's law.
-    fn at_law<S: Kinematics>(state: &State<S>, step: &StepProblem<'_, S>) -> Self {
+    fn at_law<S: Kinematics>(state: &State<S>) -> Self {
         let tolerance = state.options.coulomb_tolerance;
-        if axes::<S>() == 3 {
-            return Self { share: tolerance, newton_steps: NEWTON_STEPS };
-        }
-        let newton_steps = if choice::is_hit(state, step) {
-            (STEPS_TIMES_CONTACTS / step.contacts.candidates().len()).clamp(LEAST_STEPS, NEWTON_STEPS)
-        } else {
-            LEAST_STEPS
-        };
-        Self { share: IN_PLANE * tolerance, newton_steps }
+        let (share, newton_steps) =
+            if axes::<S>() == 3 { (tolerance, NEWTON_STEPS) } else { (IN_PLANE * tolerance, STEPS_IN_PLANE) };
+        Self { share, newton_steps, changes: CHANGES }
     }
 }
 

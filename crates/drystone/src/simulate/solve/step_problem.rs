@@ -20,6 +20,16 @@ pub struct StepProblem<'a, S: Kinematics> {
     pub free: &'a [S::Velocity],
     /// How fast each contact may close, m/s.
     pub offsets: &'a [f64],
+    pub effort: Effort,
+}
+
+/// How much a motion may cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// What is found soon, while it is looked for who meets.
+    Soon,
+    /// All that leads to Coulomb's law.
+    Full,
 }
 
 /// A solved step.
@@ -33,6 +43,8 @@ pub struct Motion<S: Kinematics = Polygon> {
     pub friction_error: f64,
     /// Whether that is within the tolerance.
     pub exact: bool,
+    /// Whether more than [`Effort::Soon`] may find a better one.
+    pub unfinished: bool,
     /// Slower than this, m/s, a body may be at rest: how far the velocities are known. Zero for pivots, which know them to rounding.
     pub unseen: f64,
     pub residual: f64,

@@ -12,7 +12,7 @@ use crate::{
         },
         laws::impact::solve_with_rebounds,
         options::Reuse,
-        solve::{Motion, PreviousStep},
+        solve::{Effort, Motion, PreviousStep},
         state::State,
     },
 };
@@ -60,7 +60,7 @@ pub fn collide(
     let part = ContactProblem::after(Some(contacts), candidates, state.options.cones, state.scene.gravity());
     let offsets = Offsets::new(state, &part, free);
 
-    let started = (&collided.velocities[..], &offsets);
+    let started = (&collided.velocities[..], &offsets, Effort::Full);
     let gained = |ends: &[Velocity]| kinetic_energy_gained(state, ends);
     let mut motion = solve_with_rebounds(state, &mut from_nothing, &part, started, gained)?;
     motion.counts = from_nothing.solver.counts();

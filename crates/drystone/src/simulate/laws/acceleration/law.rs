@@ -37,7 +37,7 @@ use crate::{
         },
         laws::law::Law,
         options::Reuse,
-        solve::{ActiveRows, FRICTION_ACCEPTED, Motion, PreviousStep, StepProblem, solve},
+        solve::{ActiveRows, Effort, FRICTION_ACCEPTED, Motion, PreviousStep, StepProblem, solve},
         state::State,
     },
 };
@@ -54,6 +54,7 @@ impl Law<Polygon> for AccelerationLevel {
         previous: &mut PreviousStep<Polygon>,
         contacts: &ContactProblem,
         free: &[Velocity],
+        _: Effort,
     ) -> Result<Motion, StepFailure> {
         let islands = Islands::new(contacts, &state.inverse_mass);
         let collided = collide(state, contacts, &islands, free)?;
@@ -92,7 +93,8 @@ impl Law<Polygon> for AccelerationLevel {
         motion.friction_error =
             law_error::largest(contacts, &motion.velocities, &motion.impulses, &offsets, &state.inverse_mass);
         let speed = free.iter().fold(0.0_f64, |fastest, v| shift::<Polygon>(v).max(fastest));
-        let tolerance = StepProblem { contacts, free: &free, offsets: &offsets }.coulomb_tolerance(state);
+        let tolerance =
+            StepProblem { contacts, free: &free, offsets: &offsets, effort: Effort::Full }.coulomb_tolerance(state);
         motion.exact = motion.friction_error <= tolerance.max(FRICTION_ACCEPTED * speed.max(1.0));
         motion.inconsistent = inconsistent;
         motion.time += time;
@@ -131,7 +133,8 @@ fn solve_others(
     let others: Vec<Velocity> = free.iter().zip(&of_body).map(|(v, of)| of.map_or(*v, |_| [0.0; 3])).collect();
     let open: Vec<f64> = offsets.iter().zip(&of_contact).map(|(&c, &of)| if of { 0.0 } else { c }).collect();
 
-    let mut motion = solve(state, previous, &StepProblem { contacts, free: &others, offsets: &open })?;
+    let mut motion =
+        solve(state, previous, &StepProblem { contacts, free: &others, offsets: &open, effort: Effort::Full })?;
     for (body, island) in of_body.iter().enumerate().filter_map(|(body, island)| Some((body, (*island)?))) {
         motion.velocities[body] = island.motion.velocities[body];
     }
