@@ -782,7 +782,15 @@ def check(
     cones: tuple[int, str] | None = None,
     round_cones: bool = False,
 ) -> Verdict: ...
-def strong(scene: Scene, blocks: Sequence[str] | None = None, budget: int = ...) -> Strong: ...
+def strong(
+    scene: Scene,
+    blocks: Sequence[str] | None = None,
+    nodes: int | None = None,
+    progress: Callable[[int, float], None] | None = None,
+) -> Strong:
+    """`nodes`: most of them; by default as many as a set effort allows. `progress` is called with
+    (nodes begun, share of the budget used)."""
+
 def plan(
     scene: Scene,
     test: str | Callable[[list[int], int], tuple[bool, int]],

@@ -149,6 +149,11 @@ def test_a_check(method: str) -> None:
     interrupted(lambda: ds.check(scene, method=method))
 
 
+def test_whether_it_must_stand() -> None:
+    scene = ds.scenes.wall(rows=4, columns=4, friction=0.5).with_gravity((1.7, -9.66))
+    interrupted(lambda: ds.check(scene, strong=True))
+
+
 def test_a_structure_has_the_blocks_that_it_had() -> None:
     scene = leaning(30, 30)
     names = [body.name for body in scene.bodies if not body.fixed]

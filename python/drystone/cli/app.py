@@ -74,7 +74,13 @@ def check(
         typer.Option("--strong", help="Must it stand? Looks for another motion than rest as well."),
     ] = False,
     strong_budget: Annotated[
-        int | None, typer.Option(min=1, metavar="NODES", help="Most nodes of that search.")
+        int | None,
+        typer.Option(
+            min=1,
+            metavar="NODES",
+            help="Most nodes of that search, however long they take. By default it ends after some "
+            "20 seconds' work.",
+        ),
     ] = None,
     settle: Annotated[
         list[str] | None,
