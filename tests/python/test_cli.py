@@ -138,6 +138,15 @@ BAD = {
     "a scene mistyped": (["simulate", "fallng_column"], ["did you mean", "falling_column"]),
     "a scene mistyped, with parameters": (["check", "colunm:3"], ["colunm:3", '"column"']),
     "no such parameter": (["plan", "column:m=3"], ["column", "m", "n"]),
+    "a parameter twice": (["check", "arch:5,voussoirs=7"], ["voussoirs", "5 and 7"]),
+    "a parameter twice, as option": (
+        ["scene", "arch:5", "--voussoirs", "7"],
+        ["--voussoirs", "5 and 7"],
+    ),
+    "an option twice": (
+        ["scene", "arch", "--voussoirs=5", "--friction", "1", "--voussoirs", "7"],
+        ["--voussoirs", "5 and 7"],
+    ),
     "a parameter too many": (["plan", "column:3,0,7"], ["column", "7 is one too many"]),
     "a parameter that is no number": (["plan", "column:many"], ["column", "n", "many"]),
     "a parameter out of range": (["plan", "column:-3"], ["column", "-3"]),
