@@ -294,6 +294,6 @@ def test_an_interrupt_hands_back_the_best_so_far(test: str, tmp_path: Path) -> N
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=MANY_TIMES_ENOUGH)
     answer: dict[str, Any] = json.loads(out)
-    assert (process.returncode, answer["status"], err) == (1, "interrupted", "")
+    assert (process.returncode, answer["status"], err) == (130, "interrupted", "")
     assert answer["tests"] > 0
     assert answer["reached"]
