@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import signal
 import subprocess
@@ -266,6 +267,31 @@ def test_a_warning_is_a_line(tmp_path: Path) -> None:
         [*command, "--settle", "ground:0,-10"], capture_output=True, text=True, check=True
     )
     assert re.fullmatch("drystone: the displacement is 10 m.*\n", ran.stderr)
+
+
+def test_a_terminal_that_knows_ascii_only(tmp_path: Path) -> None:
+    """Units are plain there, and names are escaped."""
+    scene = ds.Scene()
+    scene.add_box((0, -0.5), (4, 1), fixed=True, name="ground")
+    scene.add_box((0, 0.5), (1, 1), name="pierre taill\u00e9e")
+    scene.add_box((9, 0.5), (1, 1), name="\u77f3")
+    scene.save(tmp_path / "scene.json")
+    ascii_only = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"}
+
+    def said(*arguments: str) -> str:
+        command = [sys.executable, "-c", "from drystone.cli import main; main()", *arguments]
+        ran = subprocess.run(command, capture_output=True, text=True, env=ascii_only)
+        assert ran.returncode in (0, 1), ran.stderr
+        return ran.stdout
+
+    check = said("check", str(tmp_path / "scene.json"))
+    assert "[m/s2]" in check
+    assert "\\u77f3" in check
+    # However long they took.
+    code = "from drystone.cli.encoding import write_what_is_not_known as f; f(); print(3, '\\xb5s')"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, env=ascii_only)
+    assert ran.stdout.strip() == b"3 us"
+    assert "m/s2" in said("limit", "--help")
 
 
 HEAVY = ("numpy", "scipy", "matplotlib", "highspy", "rich.progress")
