@@ -527,6 +527,7 @@ class World:
         steps: int,
         forces: bool = False,
         progress: Callable[[int, int], None] | None = None,
+        every: int = 1,
     ) -> Run:
         """`progress` is called with (steps made, steps in all) a few times a second."""
     @property

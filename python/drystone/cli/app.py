@@ -316,6 +316,12 @@ def simulate(
     forces: Annotated[
         bool, typer.Option("--forces", help="Record the contact forces of every step.")
     ] = False,
+    every: Annotated[
+        int,
+        typer.Option(
+            min=1, help="Keep the bodies, and forces, of every so many steps: for long runs."
+        ),
+    ] = 1,
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
@@ -341,6 +347,7 @@ def simulate(
         facets,
         cone,
         forces,
+        every,
         as_json,
         output,
     )
