@@ -137,7 +137,7 @@ def test_a_table_of_the_paper() -> None:
 
 
 def test_motions_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
-    long = motion.Motion("Column", lambda: ds.scenes.column(20), 1_000_000, "")
+    long = motion.Motion("Column", lambda: ds.scenes.column(10), 1_000_000, "")
     monkeypatch.setattr(motion, "MOTIONS", [long])
     monkeypatch.setattr(motion, "REPEATS", 1)
     interrupted(motion.measure_motions)
