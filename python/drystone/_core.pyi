@@ -527,6 +527,7 @@ class World:
         steps: int,
         forces: bool = False,
         progress: Callable[[int, int], None] | None = None,
+        every: int = 1,
     ) -> Run:
         """`progress` is called with (steps made, steps in all) a few times a second."""
     @property
@@ -782,7 +783,15 @@ def check(
     cones: tuple[int, str] | None = None,
     round_cones: bool = False,
 ) -> Verdict: ...
-def strong(scene: Scene, blocks: Sequence[str] | None = None, budget: int = ...) -> Strong: ...
+def strong(
+    scene: Scene,
+    blocks: Sequence[str] | None = None,
+    nodes: int | None = None,
+    progress: Callable[[int, float], None] | None = None,
+) -> Strong:
+    """`nodes`: most of them; by default as many as a set effort allows. `progress` is called with
+    (nodes begun, share of the budget used)."""
+
 def plan(
     scene: Scene,
     test: str | Callable[[list[int], int], tuple[bool, int]],

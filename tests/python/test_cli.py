@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import signal
 import subprocess
@@ -138,6 +139,15 @@ BAD = {
     "a scene mistyped": (["simulate", "fallng_column"], ["did you mean", "falling_column"]),
     "a scene mistyped, with parameters": (["check", "colunm:3"], ["colunm:3", '"column"']),
     "no such parameter": (["plan", "column:m=3"], ["column", "m", "n"]),
+    "a parameter twice": (["check", "arch:5,voussoirs=7"], ["voussoirs", "5 and 7"]),
+    "a parameter twice, as option": (
+        ["scene", "arch:5", "--voussoirs", "7"],
+        ["--voussoirs", "5 and 7"],
+    ),
+    "an option twice": (
+        ["scene", "arch", "--voussoirs=5", "--friction", "1", "--voussoirs", "7"],
+        ["--voussoirs", "5 and 7"],
+    ),
     "a parameter too many": (["plan", "column:3,0,7"], ["column", "7 is one too many"]),
     "a parameter that is no number": (["plan", "column:many"], ["column", "n", "many"]),
     "a parameter out of range": (["plan", "column:-3"], ["column", "-3"]),
@@ -259,6 +269,31 @@ def test_a_warning_is_a_line(tmp_path: Path) -> None:
     assert re.fullmatch("drystone: the displacement is 10 m.*\n", ran.stderr)
 
 
+def test_a_terminal_that_knows_ascii_only(tmp_path: Path) -> None:
+    """Units are plain there, and names are escaped."""
+    scene = ds.Scene()
+    scene.add_box((0, -0.5), (4, 1), fixed=True, name="ground")
+    scene.add_box((0, 0.5), (1, 1), name="pierre taill\u00e9e")
+    scene.add_box((9, 0.5), (1, 1), name="\u77f3")
+    scene.save(tmp_path / "scene.json")
+    ascii_only = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONIOENCODING": "ascii"}
+
+    def said(*arguments: str) -> str:
+        command = [sys.executable, "-c", "from drystone.cli import main; main()", *arguments]
+        ran = subprocess.run(command, capture_output=True, text=True, env=ascii_only)
+        assert ran.returncode in (0, 1), ran.stderr
+        return ran.stdout
+
+    check = said("check", str(tmp_path / "scene.json"))
+    assert "[m/s2]" in check
+    assert "\\u77f3" in check
+    # However long they took.
+    code = "from drystone.cli.encoding import write_what_is_not_known as f; f(); print(3, '\\xb5s')"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, env=ascii_only)
+    assert ran.stdout.strip() == b"3 us"
+    assert "m/s2" in said("limit", "--help")
+
+
 HEAVY = ("numpy", "scipy", "matplotlib", "highspy", "rich.progress")
 
 
@@ -285,6 +320,6 @@ def test_an_interrupt_hands_back_the_best_so_far(test: str, tmp_path: Path) -> N
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=MANY_TIMES_ENOUGH)
     answer: dict[str, Any] = json.loads(out)
-    assert (process.returncode, answer["status"], err) == (1, "interrupted", "")
+    assert (process.returncode, answer["status"], err) == (130, "interrupted", "")
     assert answer["tests"] > 0
     assert answer["reached"]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.patches import FancyArrow
 
+import drystone as ds
 from by_hand import plan_by_hand, run_by_hand
 from drystone import pictures
 from drystone.viewer import Page
@@ -36,3 +37,16 @@ def test_forces_of_a_frame_are_to_one_scale_in_all() -> None:
         arrows = [patch for patch in axes.patches if isinstance(patch, FancyArrow)]
         longest.append(max(np.ptp(arrow.get_xy(), axis=0)[1] for arrow in arrows))
     assert longest[0] == pytest.approx(1.25 * longest[1], rel=0.02)
+
+
+def test_the_bodies_of_a_frame_have_their_names() -> None:
+    scene = ds.Scene(dimension=3)
+    scene.add_box((0, 0, -0.5), (6, 6, 1), name="floor", fixed=True)
+    scene.add_box((0, 0, 0.5), (1, 1, 1), name="below")
+    scene.add_box((0.2, 0, 3.0), (1, 1, 1), name="above")
+    for page in (ds.simulate(scene, steps=20).view(), ds.plan(scene.parted(), hold=1).view()):
+        (axes,) = pictures.frame_figure(page.recording, 0).axes
+        places = {text.get_text(): text.get_position() for text in axes.texts}
+        assert {"below", "above"} <= set(places)
+        assert "floor" not in places
+        assert places["above"][1] > places["below"][1] + 1.0

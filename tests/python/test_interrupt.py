@@ -137,7 +137,7 @@ def test_a_table_of_the_paper() -> None:
 
 
 def test_motions_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
-    long = motion.Motion("Column", lambda: ds.scenes.column(20), 1_000_000, "")
+    long = motion.Motion("Column", lambda: ds.scenes.column(10), 1_000_000, "")
     monkeypatch.setattr(motion, "MOTIONS", [long])
     monkeypatch.setattr(motion, "REPEATS", 1)
     interrupted(motion.measure_motions)
@@ -147,6 +147,11 @@ def test_motions_of_the_paper(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_check(method: str) -> None:
     scene = leaning(30, 30)
     interrupted(lambda: ds.check(scene, method=method))
+
+
+def test_whether_it_must_stand() -> None:
+    scene = ds.scenes.wall(rows=4, columns=4, friction=0.5).with_gravity((1.7, -9.66))
+    interrupted(lambda: ds.check(scene, strong=True))
 
 
 def test_a_structure_has_the_blocks_that_it_had() -> None:

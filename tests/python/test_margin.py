@@ -198,6 +198,19 @@ def test_no_density_holds_what_falls_anyway() -> None:
         ds.margin(scene).density("blok")
 
 
+def test_the_answer_is_known_better_than_the_boundary() -> None:
+    """Ten courses of .5 m, .5 m thick: a tenth of g across. The boundary is within its tolerance of
+    the load factors that are the answer of `limit`, and inside."""
+    scene = ds.scenes.brick_wall(10, 10)
+    m = ds.margin(scene, tolerance=1e-3)
+    assert m.acceleration == pytest.approx(0.1, abs=1e-9)
+    assert m.direction == pytest.approx((0.0, 1.0, 0.0), abs=1e-9)
+    for x, y in m.boundary[:4]:
+        far = float(np.hypot(x, y))
+        most = ds.limit(scene, gravity=(9.81 * x / far, 9.81 * y / far, 0.0)).upper.factor
+        assert -1e-8 < most - far < 1e-5
+
+
 @pytest.mark.parametrize(
     ("rows", "columns", "mu"), [(3, 3, 0.7), (4, 4, 0.5), (5, 5, 0.7), (6, 6, 0.3), (8, 8, 0.7)]
 )

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 import drystone as ds
+from drystone.planning.robust import robust
 
 
 def margin_of(scene: ds.Scene, blocks: frozenset[str]) -> float:
@@ -69,15 +72,49 @@ def test_an_order_may_have_to_be_another_one() -> None:
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_robust_orders_beside_all_orders(seed: int) -> None:
     scene = ds.scenes.random_stack(6, seed=seed, friction=0.5)
-    plain, robust = ds.plan(scene), ds.plan(scene, order="robust")
+    plain, most = ds.plan(scene), ds.plan(scene, order="robust")
     assert plain.found
-    assert robust.found
+    assert most.found
     best = best_smallest_margin(scene)
-    smallest = min(robust.margins)
+    smallest = min(most.margins)
     assert smallest <= best + 1e-9
     assert smallest >= best - max(1e-3 * best, 1e-4) - 1e-9
     assert smallest >= min(plain.margins) - 1e-9
-    assert robust.margin == pytest.approx(smallest)
+    assert most.margin == pytest.approx(smallest)
+
+
+def test_ctrl_c_ends_a_search_for_the_most_robust_order_with_the_best_so_far() -> None:
+    plain = ds.plan(ds.scenes.random_stack(6, seed=2, friction=0.5))
+    assert min(plain.margins) < 0.9 * plain.margins[0]
+    asked: list[float] = []
+
+    def planned(margin: float) -> ds.Plan:
+        asked.append(margin)
+        first = len(asked) == 1
+        return replace(plain, found=first, status="found" if first else "interrupted", _margins=[])
+
+    plan = robust(planned, 0.0)
+    assert (plan.found, plan.status, len(asked)) == (True, "interrupted", 2)
+    assert plan.margin == pytest.approx(min(plain.margins))
+    assert "interrupted: another may bear more" in str(plan)
+
+
+def test_margins_that_were_cut_short_are_not_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = ds.plan(ds.scenes.column(4))
+    left = iter([ds.margin(ds.scenes.column(2))])
+
+    def cut_short(*_: object, **__: object) -> ds.Margin:
+        found = next(left, None)
+        if found is None:
+            raise KeyboardInterrupt
+        return found
+
+    with monkeypatch.context() as patched:
+        patched.setattr("drystone.planning.answer.margin", cut_short)
+        with pytest.raises(KeyboardInterrupt):
+            _ = plan.margins
+    assert not plan.margins_are_known
+    assert len(plan.margins) == len(plan.order)
 
 
 def test_in_space() -> None:

@@ -165,6 +165,32 @@ def test_a_budget_is_kept() -> None:
         ds.check(scene, strong=True, strong_budget=0)
 
 
+def test_a_search_says_how_far_it_is_and_may_be_left() -> None:
+    """By default the budget is an effort, of which the root of this wall alone takes a part that
+    no count of nodes would show."""
+    scene = turned(ds.scenes.wall(rows=4, columns=4, friction=0.5), 10.0)
+    told: list[tuple[int, float]] = []
+
+    class EnoughError(Exception):
+        pass
+
+    def progress(nodes: int, share: float) -> None:
+        told.append((nodes, share))
+        if share > 0.02:
+            raise EnoughError
+
+    with pytest.raises(EnoughError):
+        ds.check(scene, strong=True, progress=progress)
+    assert told[0][0] == 1
+    assert 0.0 < told[0][1] < told[-1][1] <= 0.2
+    told.clear()
+    with pytest.raises(EnoughError):
+        ds.check(scene, strong=True, strong_budget=49, progress=progress)
+    assert told[-1] == (2, pytest.approx(1 / 49))
+    with pytest.raises(TypeError, match="progress"):
+        ds.check(scene, strong=True, progress=7)  # type: ignore[arg-type]
+
+
 def with_gaps(scene: ds.Scene, random: np.random.Generator, gap: float = 1e-8) -> ds.Scene:
     """Every corner of a block moved towards its centroid by up to a gap, m."""
     apart = ds.Scene(friction=scene.friction, gravity=scene.gravity)

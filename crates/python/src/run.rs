@@ -91,13 +91,14 @@ impl StepRecord {
 }
 
 impl Run {
-    pub fn new<S: Moving>(py: Python<'_>, run: &CoreRun<S>, dt: f64, bodies: usize) -> PyResult<Self> {
+    pub fn new<S: Moving>(py: Python<'_>, run: CoreRun<S>, dt: f64, bodies: usize) -> PyResult<Self> {
         let numbers =
             |of: &dyn Fn(&CoreRecord) -> f64| vector(py, run.records.iter().map(of).collect::<Vec<f64>>()).unbind();
         let counts = |of: &dyn Fn(&CoreRecord) -> usize| {
             vector(py, run.records.iter().map(|record| of(record) as i64).collect::<Vec<_>>()).unbind()
         };
-        let still: Vec<bool> = run.records.iter().flat_map(|record| record.motionless.iter().copied()).collect();
+        let mut still = Vec::with_capacity(run.records.len() * bodies);
+        run.records.iter().for_each(|record| still.extend_from_slice(&record.motionless));
         let places = run.records.iter().flat_map(|record| match record.inconsistent {
             Some(Inconsistent { contact, .. }) => contact.bodies.map(|body| body as i64),
             None => [-1; 2],
@@ -111,8 +112,8 @@ impl Run {
         Ok(Self {
             status: run.ending.name().to_owned(),
             reason,
-            poses: moments(py, &run.poses, bodies)?,
-            velocities: moments(py, &run.velocities, bodies)?,
+            poses: moments::<S::Place>(py, run.poses, run.moments, bodies)?,
+            velocities: moments::<S::Velocity>(py, run.velocities, run.moments, bodies)?,
             motionless: read_only(PyArray1::from_vec(py, still).reshape([run.records.len(), bodies])?).unbind(),
             pivots: counts(&|r| r.counts.pivots),
             major_cycles: counts(&|r| r.counts.major_cycles),
@@ -164,8 +165,7 @@ impl Forces {
 }
 
 /// An array (moments, bodies, numbers of each).
-fn moments<V: Numbers>(py: Python<'_>, values: &[Vec<V>], bodies: usize) -> PyResult<Py<PyArray3<f64>>> {
-    let flat: Vec<f64> = values.iter().flatten().flat_map(|value| value.as_ref()).copied().collect();
+fn moments<V: Numbers>(py: Python<'_>, values: Vec<f64>, moments: usize, bodies: usize) -> PyResult<Py<PyArray3<f64>>> {
     let numbers = V::default().as_ref().len();
-    Ok(read_only(PyArray1::from_vec(py, flat).reshape([values.len(), bodies, numbers])?).unbind())
+    Ok(read_only(PyArray1::from_vec(py, values).reshape([moments, bodies, numbers])?).unbind())
 }

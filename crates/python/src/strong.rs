@@ -1,11 +1,11 @@
 //! `strong` and its answer.
 
-use crate::{arrays::matrix, contact_forces::ContactForces, errors::scene_error, scene::Scene, watch::interruptible};
+use crate::{arrays::matrix, contact_forces::ContactForces, errors::scene_error, scene::Scene, watch::Watch};
 use drystone::{
     SceneError,
     formulate::Assembly,
     limit::blocks_named,
-    strong::{self as core, strong as decide},
+    strong::{self as core, Budget, Searched, strong as decide},
 };
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -48,12 +48,23 @@ impl Escape {
 }
 
 #[pyfunction]
-#[pyo3(signature = (scene, blocks=None, budget=core::BUDGET))]
-pub fn strong(py: Python<'_>, scene: &Scene, blocks: Option<Vec<String>>, budget: usize) -> PyResult<Strong> {
+#[pyo3(signature = (scene, blocks=None, nodes=None, progress=None))]
+pub fn strong(
+    py: Python<'_>,
+    scene: &Scene,
+    blocks: Option<Vec<String>>,
+    nodes: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<Strong> {
     let start = Instant::now();
+    let budget = nodes.map_or_else(Budget::default, Budget::Nodes);
     let assembly = scene.assembly(py, None)?;
     let set = blocks_named(&assembly, blocks.as_deref()).map_err(|error: SceneError| scene_error(&error))?;
-    let found = interruptible(py, || decide(&assembly, &set, budget, &mut |_| true))?.expect("nobody says stop");
+    let mut watch = Watch::new(progress);
+    let signals = watch.signals.clone();
+    let mut go_on = |done: Searched| watch.go_on(|| (done.nodes, budget.share(done)));
+    let found = signals.run(py, || decide(&assembly, &set, budget, &mut go_on)).flatten();
+    let Some(found) = found else { return Err(watch.stopped()) };
     Ok(Strong {
         must_stand: found.must_stand,
         nodes: found.nodes,

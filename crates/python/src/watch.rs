@@ -169,6 +169,11 @@ impl Watch {
         self.error.or_else(|| self.signals.raised()).filter(|error| !error.is_instance_of::<PyKeyboardInterrupt>(py))
     }
 
+    /// What stopped work of which no half is an answer.
+    pub fn stopped(self) -> PyErr {
+        self.error.unwrap_or_else(|| self.signals.error())
+    }
+
     /// False if it is time to stop; otherwise `progress` may be called with `how_far`.
     pub fn go_on<A>(&mut self, how_far: impl FnOnce() -> A) -> bool
     where

@@ -12,7 +12,7 @@ use crate::{
 use drystone::{
     AnyScene,
     geometry::{Numbers, Polygon, Solid},
-    simulate::{self as core, Formulation, Moving, Options, Reuse, SimulationError, snapshot_dimension},
+    simulate::{self as core, Formulation, Kept, Moving, Options, Reuse, SimulationError, snapshot_dimension},
 };
 use numpy::{PyArray1, PyArray2};
 use pyo3::{
@@ -120,16 +120,24 @@ impl World {
     }
 
     /// Makes steps; `progress` is called with (steps made, steps in all) a few times a second.
-    #[pyo3(signature = (steps, forces=false, progress=None))]
-    fn run(&self, py: Python<'_>, steps: usize, forces: bool, progress: Option<Py<PyAny>>) -> PyResult<Run> {
+    #[pyo3(signature = (steps, forces=false, progress=None, every=1))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        steps: usize,
+        forces: bool,
+        progress: Option<Py<PyAny>>,
+        every: usize,
+    ) -> PyResult<Run> {
+        let kept = Kept { every, forces };
         let mut watch = Watch::new(progress);
         let signals = watch.signals.clone();
         with_world!(&mut *self.core.write()?, world => {
-            let run = signals.run(py, || core::run(world, steps, forces, |made| watch.go_on(|| (made, steps))));
+            let run = signals.run(py, || core::run(world, steps, kept, |made| watch.go_on(|| (made, steps))));
             let run = run.ok_or_else(|| signals.error())?;
             match watch.error(py) {
                 Some(error) => Err(error),
-                None => Run::new(py, &run, world.options().dt, world.names().count()),
+                None => Run::new(py, run, world.options().dt, world.names().count()),
             }
         })
     }

@@ -13,6 +13,7 @@ import sys
 import warnings
 from typing import TextIO
 
+from drystone.cli.encoding import write_what_is_not_known
 from drystone.cli.errors import BAD_INPUT, INTERRUPTED, NOT_READ, InputError
 
 VALIDATOR = "Value error, "
@@ -21,10 +22,7 @@ VALIDATOR = "Value error, "
 
 def main() -> None:
     """Run the command line given to the process."""
-    for stream in (sys.stdout, sys.stderr):
-        # A name that a stream's encoding does not know is no reason to fail.
-        if stream is not None and hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")
+    write_what_is_not_known()
     warnings.showwarning = _warn
     try:
         status = run(sys.argv[1:])

@@ -74,7 +74,13 @@ def check(
         typer.Option("--strong", help="Must it stand? Looks for another motion than rest as well."),
     ] = False,
     strong_budget: Annotated[
-        int | None, typer.Option(min=1, metavar="NODES", help="Most nodes of that search.")
+        int | None,
+        typer.Option(
+            min=1,
+            metavar="NODES",
+            help="Most nodes of that search, however long they take. By default it ends after some "
+            "20 seconds' work.",
+        ),
     ] = None,
     settle: Annotated[
         list[str] | None,
@@ -310,6 +316,12 @@ def simulate(
     forces: Annotated[
         bool, typer.Option("--forces", help="Record the contact forces of every step.")
     ] = False,
+    every: Annotated[
+        int,
+        typer.Option(
+            min=1, help="Keep the bodies, and forces, of every so many steps: for long runs."
+        ),
+    ] = 1,
     as_json: AsJson = False,
     output: Annotated[
         Path | None,
@@ -335,6 +347,7 @@ def simulate(
         facets,
         cone,
         forces,
+        every,
         as_json,
         output,
     )

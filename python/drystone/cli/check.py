@@ -13,8 +13,9 @@ from drystone.cli.output import console
 from drystone.common.cones import ConeOfCheck
 from drystone.common.drawn import Drawn
 from drystone.common.files import JSON, PAGE
+from drystone.common.progress import StrongProgress
+from drystone.common.text import counted
 from drystone.equilibrium.contact_force import ANY, CANONICAL, WhichForces
-from drystone.equilibrium.strong import BUDGET
 from drystone.equilibrium.verdict import Verdict, check
 from drystone.report.tables import joints_table, verdict_table
 from drystone.scene import Scene
@@ -46,15 +47,17 @@ def run(
         raise InputError("--strong-budget goes with --strong")
     for text in settle or ():
         _add_settlement(scene, text)
-    verdict = check(
-        scene,
-        names,
-        facets=facets,
-        cone=cone,
-        forces=forces or CANONICAL,
-        strong=strong,
-        strong_budget=budget or BUDGET,
-    )
+    with StrongProgress() as progress:
+        verdict = check(
+            scene,
+            names,
+            facets=facets,
+            cone=cone,
+            forces=forces or CANONICAL,
+            strong=strong,
+            strong_budget=budget,
+            progress=progress,
+        )
     if forces is None:
         verdict = with_forces_in_time(verdict)
     write(verdict, _drawn(verdict, picture), picture)
@@ -65,7 +68,9 @@ def run(
     if verdict.status != "solved":
         raise InputError(f"{scene_name}: no verdict ({verdict.status})")
     if strong and verdict.must_stand is None:
-        raise InputError(f"{scene_name}: not decided whether it must stand ({verdict.nodes} nodes)")
+        nodes = counted(verdict.nodes or 0, "node")
+        hint = "" if scene.dimension == 3 else "; --strong-budget sets how many"
+        raise InputError(f"{scene_name}: not decided whether it must stand ({nodes}{hint})")
     if verdict.settled is not None and verdict.settled.status != "solved":
         raise InputError(f"{scene_name}: {verdict.settled}")
     return 0 if (verdict.must_stand if strong else verdict.stable) else 1

@@ -88,6 +88,10 @@ def parameters_of(builder: Callable[..., Scene], text: str) -> dict[str, int | f
             raise InputError(
                 f"{builder.__name__} has no parameter {key!r}: it takes {', '.join(names)}"
             )
+        if key in given:
+            raise InputError(
+                f"{builder.__name__}: {key} has two values, {given[key]} and {value}: give one"
+            )
         given[key] = _number(value, signature.parameters[key].annotation, builder.__name__, key)
     return given
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
-from drystone.cli.errors import InputError
+from drystone.cli.errors import INTERRUPTED, InputError
 from drystone.cli.forces import with_forces_in_time
 from drystone.cli.inputs import (
     kind_of,
@@ -52,7 +52,7 @@ def run(
     together: int,
     obstacles: str | None,
 ) -> int:
-    """0 if an order was found, 1 if not."""
+    """0 if an order was found, 1 if not, 130 after Ctrl-C."""
     if (strong or margin or order != "any") and (hold or test != "reuse"):
         raise InputError(
             "--margin, --order robust and --strong go with --test reuse, without --hold"
@@ -92,6 +92,8 @@ def run(
         found.write_json(sys.stdout)
     else:
         _print(found, picture)
+    if found.status == "interrupted":
+        return INTERRUPTED
     return 0 if found.found else 1
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from drystone import _core, scenes
+from drystone.cli.errors import InputError
 from drystone.cli.flags import App, Group
 from drystone.cli.inputs import (
     STANDARD,
@@ -42,7 +43,23 @@ class SceneGroup(Group):
             if not (Path(args[0]).suffix or args[0] == STANDARD):
                 raise neither(args[0], python_name(name))
             args = ["draw", *args]
+        _refuse_two_values(args[0], args[1:])
         return super().resolve_command(ctx, args)
+
+
+def _refuse_two_values(name: str, words: list[str]) -> None:
+    """The parser would take the last of them."""
+    given: dict[str, str] = {}
+    following = iter(words)
+    for word in following:
+        option, equals, value = word.partition("=")
+        if option.startswith("--") and option != "--help":
+            value = value if equals else next(following, "")
+            if option in given:
+                raise InputError(
+                    f"{name}: {option} has two values, {given[option]} and {value}: give one"
+                )
+            given[option] = value
 
 
 scene_app = App(

@@ -40,6 +40,7 @@ def run(
     facets: int,
     cone: Pyramid,
     forces: bool,
+    every: int,
     as_json: bool,
     output: Path | None,
 ) -> int:
@@ -59,6 +60,7 @@ def run(
             facets=facets,
             cone=cone,
             forces=forces,
+            every=every,
             progress=progress,
         )
     if output is not None:

@@ -7,6 +7,8 @@ import time
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from drystone.common.text import counted
+
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
     from typing_extensions import Self
@@ -72,6 +74,22 @@ class ForcesProgress(_Bar):
 
     def __call__(self, placed: int, total: int) -> None:
         self._show(placed, total)
+
+
+class StrongProgress(_Bar):
+    """Use as a context, and pass it to `check` as its `progress`.
+
+    >>> import drystone as ds
+    >>> with StrongProgress() as progress:
+    ...     ds.check(ds.scenes.column(4), strong=True, progress=progress).must_stand
+    True
+    """
+
+    label = "looking for another motion"
+    unit = "% of the budget"
+
+    def __call__(self, nodes: int, share: float) -> None:
+        self._show(int(100 * share), 100, ", " + counted(nodes, "node"))
 
 
 class FilmProgress(_Bar):

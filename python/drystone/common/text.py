@@ -49,6 +49,12 @@ def counted(number: int, thing: str, things: str | None = None) -> str:
     return f"{number} {thing if number == 1 else things or thing + 's'}"
 
 
+def ordinal(number: int) -> str:
+    """1st, 12th, 22nd."""
+    ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10)
+    return f"{number}{ending or 'th'}"
+
+
 NOTHING = 1e-9
 """A number smaller than this share of the largest of its kind is printed as 0: forces balance every
 block to 1e-9, and places are rounded too, so that it says nothing."""

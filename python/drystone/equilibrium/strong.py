@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -17,8 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-BUDGET = 500
-"""Nodes of a search unless another budget is given."""
+Progress = Callable[[int, float], None]
+"""Called during a search with (nodes looked at, share of the budget that is used, 0 to 1)."""
 
 MOVES = 1e-6
 """A block slower than this share of the fastest is at rest in an escape: what the tolerances of the

@@ -24,7 +24,7 @@ from drystone.equilibrium.contact_force import (
     which_forces,
 )
 from drystone.equilibrium.settled import Settled
-from drystone.equilibrium.strong import BUDGET, Escape
+from drystone.equilibrium.strong import Escape, Progress
 from drystone.scene import NearMiss, Scene
 from drystone.scene.scene import scene_of
 
@@ -104,7 +104,7 @@ class Verdict(Answer):
     must_stand: bool | None = None
     """With `strong=True` in `check`: whether rest is the only motion that the contact laws allow.
     False if there is another one, see `escape`, or if it does not stand at all. None if it was not
-    asked, or not decided within the budget of nodes."""
+    asked, or not decided within the budget of the search."""
     escape: Escape | None = None
     """A motion that obeys every law of contact, where there is one beside rest. Of a structure that
     does not stand, one of those with which it begins to fall, by Coulomb's friction."""
@@ -286,7 +286,8 @@ def check(
     cone: ConeOfCheck = ROUND,
     forces: WhichForces = CANONICAL,
     strong: bool = False,
-    strong_budget: int = BUDGET,
+    strong_budget: int | None = None,
+    progress: Progress | None = None,
 ) -> Verdict:
     """Does `scene` stand? With which contact forces, or how does it begin to fall?
 
@@ -322,17 +323,22 @@ def check(
     "It stands" says that it *can*: forces exist that hold it. With `strong=True` it is decided as
     well whether it *must* (`Verdict.must_stand`): whether rest is the only motion that the laws of
     contact allow (strong stability: Pang and Trinkle 2000). A block that hangs between two walls
-    can also fall, which `Verdict.escape` then is. The search looks at up to `strong_budget` cases
-    of what parts, slides and rests. In space nothing is searched: that it must stand is said of
-    what stands without friction, that it need not where a step from rest finds another motion.
+    can also fall, which `Verdict.escape` then is. A search through what parts, slides and rests
+    decides it, or ends after some twenty seconds' work, counted in operations so that it is the
+    same in every run; with `strong_budget` after so many nodes, however long they take. Ended so,
+    `must_stand` is None. `progress` is called now and then meanwhile: see
+    `drystone.equilibrium.strong.Progress`. In space nothing is searched: that it must stand is said
+    of what stands without friction, that it need not where a step from rest finds another motion.
 
     >>> import drystone as ds
     >>> verdict = ds.check(ds.scenes.column(4), strong=True)
     >>> verdict.stable, verdict.must_stand
     (True, True)
     """
-    if whole(strong_budget, "strong_budget") < 1:
+    if strong_budget is not None and whole(strong_budget, "strong_budget") < 1:
         raise ValueError(f"strong_budget is {strong_budget}: it must be one node or more")
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function, not {progress!r:.80}")
     names = names_of(blocks)
     scene = copy.copy(scene_of(scene))  # the one checked, whatever becomes of it
     facets, _ = core_cones(facets, cone, (ROUND, *CONES))
@@ -347,12 +353,14 @@ def check(
     if verdict.stable and scene.settlements:
         core_settled = _core.settle(scene._core, names, (facets, inner), round_cone)
         verdict = replace(verdict, settled=Settled._of(core_settled, scene, forces))
-    return _searched(verdict, names, strong_budget) if strong else verdict
+    return _searched(verdict, names, strong_budget, progress) if strong else verdict
 
 
-def _searched(verdict: Verdict, names: list[str] | None, budget: int) -> Verdict:
+def _searched(
+    verdict: Verdict, names: list[str] | None, nodes: int | None, progress: Progress | None
+) -> Verdict:
     """The verdict with whether it must stand."""
-    found = _core.strong(verdict.scene._core, names, budget)
+    found = _core.strong(verdict.scene._core, names, nodes, progress)
     solved = verdict.status == "solved"
     must = (verdict.stable and found.must_stand) if solved else None
     escape = None if found.escape is None else Escape._of(found.escape, verdict.scene)

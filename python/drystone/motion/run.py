@@ -29,6 +29,8 @@ class Run(Paged):
     """The answer of `simulate`: k steps of n bodies, fixed ones included.
 
     Most arrays have one entry for each step. `poses` and `velocities` have one more, the beginning.
+    With `every` of 2 or more these, and the forces, are kept after every so many steps and after
+    the last one only: m moments, at `times`. All other arrays are of every step still.
     """
 
     status: str
@@ -45,6 +47,8 @@ class Run(Paged):
     restitution: float
     formulation: str
     """"velocity" or "acceleration"."""
+    every: int
+    """After how many steps each the bodies are kept."""
     poses: NDArray[np.float64]
     """(k + 1, n, 3): the centre of mass's x and y in metres, and the angle in radians. In space
     (k + 1, n, 7): x, y, z and a unit quaternion (w, x, y, z)."""
@@ -88,7 +92,8 @@ class Run(Paged):
     """(k,): deepest overlap at the end of the step, metres."""
     force_starts: NDArray[np.int64]
     """With `forces=True` (k + 1,): the forces of step j are the rows `force_starts[j]` to
-    `force_starts[j + 1]` of the three arrays below. Otherwise one zero."""
+    `force_starts[j + 1]` of the three arrays below, with `every` those of the j-th step that is
+    kept. Otherwise one zero."""
     force_bodies: NDArray[np.int64]
     """(m, 2): indices of the two bodies in `names`."""
     force_points: NDArray[np.float64]
@@ -99,8 +104,8 @@ class Run(Paged):
     """The scene at the beginning."""
 
     @classmethod
-    def _of(cls, core: _core.Run, world: _core.World, scene: Scene) -> Run:
-        own = {"names", "dt", "reuse", "restitution", "formulation", "scene"}
+    def _of(cls, core: _core.Run, world: _core.World, scene: Scene, every: int) -> Run:
+        own = {"names", "dt", "reuse", "restitution", "formulation", "every", "scene"}
         recorded = {f.name: getattr(core, f.name) for f in fields(cls) if f.name not in own}
         missed = int((~core.exact).sum())
         if missed:
@@ -111,6 +116,7 @@ class Run(Paged):
             reuse=world.reuse,
             restitution=world.restitution,
             formulation=world.formulation,
+            every=every,
             scene=scene,
             **recorded,
         )
@@ -122,6 +128,18 @@ class Run(Paged):
     def steps(self) -> int:
         """Steps made."""
         return len(self.pivots)
+
+    @property
+    def step_numbers(self) -> NDArray[np.int64]:
+        """(k + 1,), with `every` (m,): after how many steps the bodies are where `poses` says."""
+        import numpy as np
+
+        return np.minimum(np.arange(len(self.poses), dtype=np.int64) * self.every, self.steps)
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """The same in seconds, the beginning at 0."""
+        return self.step_numbers.astype(float) * self.dt
 
     @property
     def finished(self) -> bool:
@@ -201,6 +219,7 @@ class Run(Paged):
             "restitution": self.restitution,
             "formulation": self.formulation,
             "steps": self.steps,
+            "every": self.every,
             "steps_by_impulses": self.by_impulses,
             "steps_not_exact": self.not_exact,
             **totals,

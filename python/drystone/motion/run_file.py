@@ -42,6 +42,7 @@ ABOUT: dict[str, Any] = {
     "reuse": str,
     "restitution": (int, float),
     "formulation": str,
+    "every": int,
     "scene": str,
 }
 """What is said beside the arrays, and its types in JSON."""
@@ -84,9 +85,11 @@ def _unpacked(content: bytes) -> dict[str, Any]:
         about["formulation"] = "velocity"
         arrays["collisions"] = np.zeros(steps, dtype=np.int64)
         arrays["inconsistent"] = np.full((steps, 2), -1, dtype=np.int64)
+    about.setdefault("every", 1)  # written when there was no other
     if "exact" not in arrays and "friction_error" in arrays:  # written before it was kept
         arrays["exact"] = arrays["friction_error"] <= 1e-8
-    return {**_checked_about(about), **_checked_arrays(arrays, about["names"])}
+    checked = _checked_about(about)
+    return {**checked, **_checked_arrays(arrays, about["names"], about["every"])}
 
 
 def _array(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> NDArray[Any]:
@@ -131,12 +134,17 @@ def _checked_about(about: dict[str, Any]) -> dict[str, Any]:
             raise ValueError(f"its {field} is {about[field]!r:.60}")
     if not (0 < about["dt"] < math.inf and 0 <= about["restitution"] <= 1):
         raise ValueError("its dt or its restitution is out of range")
+    if about["every"] < 1:
+        raise ValueError("its every is not 1 or more")
     return {**about, "names": tuple(about["names"]), "scene": scene}
 
 
-def _checked_arrays(arrays: dict[str, NDArray[Any]], names: list[str]) -> dict[str, NDArray[Any]]:
+def _checked_arrays(
+    arrays: dict[str, NDArray[Any]], names: list[str], every: int
+) -> dict[str, NDArray[Any]]:
     """The arrays, of the types and shapes that `Run` says."""
     steps, bodies = len(arrays["pivots"]), len(names)
+    moments = -(-steps // every) + 1
     axes = 2 if arrays["poses"].shape[-1:] == (3,) else 3
     forces, starts = len(arrays["forces"]), len(arrays["force_starts"])
     counts = [
@@ -151,8 +159,8 @@ def _checked_arrays(arrays: dict[str, NDArray[Any]], names: list[str]) -> dict[s
     ]
     times = ["solve_seconds", "step_seconds", "residual", "friction_error", "penetration"]
     wanted: dict[str, tuple[type, tuple[int, ...]]] = {
-        "poses": (np.float64, (steps + 1, bodies, 3 if axes == 2 else 7)),
-        "velocities": (np.float64, (steps + 1, bodies, 3 if axes == 2 else 6)),
+        "poses": (np.float64, (moments, bodies, 3 if axes == 2 else 7)),
+        "velocities": (np.float64, (moments, bodies, 3 if axes == 2 else 6)),
         "motionless": (np.bool_, (steps, bodies)),
         "exact": (np.bool_, (steps,)),
         "inconsistent": (np.int64, (steps, 2)),
@@ -173,7 +181,7 @@ def _checked_arrays(arrays: dict[str, NDArray[Any]], names: list[str]) -> dict[s
     _require_places(arrays["inconsistent"], -1, bodies, "inconsistent")
     _require_places(arrays["force_starts"], 0, forces + 1, "force_starts")
     rises = bool(np.all(np.diff(arrays["force_starts"]) >= 0))
-    if starts not in (1, steps + 1) or not rises or arrays["force_starts"][-1] != forces:
+    if starts not in (1, moments) or not rises or arrays["force_starts"][-1] != forces:
         raise ValueError("its force_starts do not fit its forces")
     return arrays
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from drystone import _core
 from drystone.common.cones import FACETS, INSCRIBED, Pyramid, core_cones
 from drystone.common.numbers import Floats, name_of, number, vector, whole, word
+from drystone.motion.memory import warn_of_much_memory
 from drystone.motion.modes import COULOMB_TOLERANCE, MOST_STEPS, Formulation, Progress, Reuse
 from drystone.motion.run import Run
 from drystone.scene import Scene
@@ -26,6 +27,7 @@ def simulate(
     facets: int = FACETS,
     cone: Pyramid = INSCRIBED,
     forces: bool = False,
+    every: int = 1,
     progress: Progress | None = None,
 ) -> Run:
     """How do the bodies of a scene move? Makes `steps` steps of `dt` seconds, and records them.
@@ -37,6 +39,10 @@ def simulate(
     along the axes and rad/s about them. Bodies that are not named begin at rest. `restitution`,
     from 0 to 1, is the share of the speed with which colliding bodies part; it is less in a step in
     which it would give energy. With `forces` the run holds the contact forces of every step.
+
+    A run is kept in memory, some 50 bytes for each body and step in the plane and 100 in space; a
+    UserWarning says so where that is more than 1 GB. With `every` the bodies, and the forces, are
+    kept of every so many steps and the last (`Run.times`).
 
     `reuse` says what a step takes over from the step before. The motion is the same:
 
@@ -90,12 +96,20 @@ def simulate(
         raise TypeError(
             f"velocities is {velocities!r}: give them by name, as in {{'1': (1, 0, 0)}}"
         )
+    whole_every(every)
     cones = core_cones(facets, cone)
     world = core_world(scene, dt, reuse, restitution, formulation, coulomb_tolerance, cones)
     for name, velocity in (velocities or {}).items():
         world.set_velocity(name_of(name), velocity_of(world, name, velocity))
     begun = Scene._of(world.scene)
-    return Run._of(world.run(steps, forces, progress), world, begun)
+    warn_of_much_memory(steps, every, len(begun), begun.dimension, forces)
+    return Run._of(world.run(steps, forces, progress, every), world, begun, every)
+
+
+def whole_every(every: int) -> None:
+    """SimulationError unless it is one or more."""
+    if not 1 <= whole(every, "every", _core.SimulationError) <= MOST_STEPS:
+        raise _core.SimulationError(f"every is {every}: it must be from 1 to {MOST_STEPS}")
 
 
 def core_world(

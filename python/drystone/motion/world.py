@@ -13,9 +13,10 @@ from drystone.common.numbers import Floats, name_of, whole
 from drystone.common.text import counted
 from drystone.common.units import quantity
 from drystone.equilibrium.contact_force import ContactForce
+from drystone.motion.memory import warn_of_much_memory
 from drystone.motion.modes import COULOMB_TOLERANCE, Formulation, Progress, Reuse
 from drystone.motion.run import Run
-from drystone.motion.simulation import core_world, numbers, velocity_of
+from drystone.motion.simulation import core_world, numbers, velocity_of, whole_every
 from drystone.scene import Point, Scene
 from drystone.scene.adding import Adding
 
@@ -102,12 +103,21 @@ class World(Adding, Drawn):
         record = self._core.step()
         return StepRecord(*(getattr(record, name) for name in StepRecord.__slots__))
 
-    def run(self, steps: int, *, forces: bool = False, progress: Progress | None = None) -> Run:
+    def run(
+        self,
+        steps: int,
+        *,
+        forces: bool = False,
+        every: int = 1,
+        progress: Progress | None = None,
+    ) -> Run:
         """Make steps and record them, as `simulate` does."""
         if whole(steps, "steps", _core.SimulationError) < 0:
             raise _core.SimulationError(f"steps is {steps}: it must be zero or more")
+        whole_every(every)
         start = self.scene
-        return Run._of(self._core.run(steps, forces, progress), self._core, start)
+        warn_of_much_memory(steps, every, len(start), start.dimension, forces)
+        return Run._of(self._core.run(steps, forces, progress, every), self._core, start, every)
 
     @property
     def scene(self) -> Scene:

@@ -21,6 +21,7 @@ from drystone.common.drawn import DPI
 from drystone.common.files import PICTURES, ending_of, write_whole
 from drystone.common.numbers import number
 from drystone.pictures import style
+from drystone.pictures.fonts import fonts_for_names
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -209,7 +210,7 @@ def rendered(figure: Figure, kind: str, dpi: float = DPI) -> bytes:
     if not LEAST_DPI <= dots <= MOST_DPI:
         raise ValueError(f"dpi is {dots:g}: it must be from {LEAST_DPI} to {MOST_DPI}")
     out = io.BytesIO()
-    with mpl.rc_context(SETTINGS):
+    with mpl.rc_context(SETTINGS), fonts_for_names(figure, text=kind == "svg"):
         figure.savefig(out, format=kind, dpi=dots, metadata=UNSAID[kind])
     return out.getvalue()
 

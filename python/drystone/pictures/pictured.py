@@ -46,7 +46,8 @@ figure_of.register(Plan, plan_figure)
 def _(run: Run) -> Figure:
     """Where the bodies are at the end."""
     recording = recording_of_run(run)
-    return frame_figure(recording, run.steps, frames_box(recording, [run.steps]))
+    last = len(recording.states) - 1
+    return frame_figure(recording, last, frames_box(recording, [last]))
 
 
 @figure_of.register(World)

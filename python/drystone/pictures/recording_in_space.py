@@ -38,7 +38,9 @@ def solid_frame(recording: Recording, frame: int, box: Box) -> Figure:
     if recording.poses is not None:
         span.append(Shadow("", False, (0.0, 0.0), view.flat(corners)))
     canvas = fitted(span, recording.title, note_of(recording, frame), key=True)
-    draw_solids(canvas, drawing, fills_in(recording, frame), ghosts=recording.kind == "plan")
+    fills = fills_in(recording, frame)
+    names = {name: name for name in fills}
+    draw_solids(canvas, drawing, fills, labels=names, ghosts=recording.kind == "plan")
     if recording.forces is not None:
         _draw_forces(canvas, drawing, recording, recording.forces, frame)
     return canvas.figure

@@ -108,7 +108,8 @@ class Plan(Paged):
     - "locked", with `clear_path`: some blocks lock one another in;
     - "undecided", with `hold`: no order was found, but not every way to hold was tried, so there
       may be one;
-    - "test_limit", "time_limit", "interrupted": the search was stopped."""
+    - "test_limit", "time_limit", "interrupted": the search was stopped. A search for the most
+      robust order may have an order then: it is `found`, and another one may bear more."""
     order: tuple[str, ...]
     """Names of the blocks, first removed first; empty if no order was found."""
     reached: tuple[str, ...]
@@ -222,9 +223,9 @@ class Plan(Paged):
         if not self._margins:
             blocks = self.order or self.reached[::-1]
             facets, cone = self.cones[0], cast(Cone, self.cones[1])
-            for k in range(len(blocks)):
-                found = margin(self.scene, blocks[k:], facets=facets, cone=cone)
-                self._margins.append(found.acceleration)
+            every = (blocks[k:] for k in range(len(blocks)))
+            found = [margin(self.scene, some, facets=facets, cone=cone) for some in every]
+            self._margins.extend(one.acceleration for one in found)  # all, or none after Ctrl-C
         return tuple(self._margins)
 
     @property
@@ -287,6 +288,7 @@ class Plan(Paged):
         if self.found:
             bearing = f", each bearing {self.margin:.3g} g sideways" if self.margin else ""
             bearing += ", each must stand" if self.strong else ""
+            bearing += " (interrupted: another may bear more)" if self.status != "found" else ""
             return (
                 f"Order found for {counted(len(self.order), 'block')}{bearing}; {work}.\n"
                 f"Remove first: {shorten(self.order)}."

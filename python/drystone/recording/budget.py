@@ -14,6 +14,7 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
+from drystone.common.text import ordinal
 from drystone.recording.recording import FrameForces, Recording, Series, rows_of
 
 MIB = 1 << 20
@@ -54,9 +55,10 @@ def _with_fewer_frames(recording: Recording, most: int) -> Recording:
         return recording
     kept = np.unique(np.append(np.arange(0, frames, every), frames - 1))
     steps = np.arange(frames) if recording.steps is None else recording.steps
+    apart = every * int(steps[1] - steps[0])
     notes = (
         *recording.notes,
-        f"Every {_ordinal(every)} step is shown; charts say what they have of the steps between.",
+        f"Every {ordinal(apart)} step is shown; charts say what they have of the steps between.",
     )
     return replace(
         recording,
@@ -117,8 +119,3 @@ def _together(series: Series, kept: NDArray[np.int64], every: int) -> Series:
         return replace(series, name=f"{series.name}, least of {every}", values=least)
     sums = np.diff(np.concatenate([[0.0], np.cumsum(np.nan_to_num(values))[kept]]))
     return replace(series, name=f"{series.name}, sums of {every}", values=sums)
-
-
-def _ordinal(number: int) -> str:
-    ending = "th" if number % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(number % 10)
-    return f"{number}{ending or 'th'}"

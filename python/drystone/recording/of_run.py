@@ -1,13 +1,15 @@
-"""A run as a recording: one frame for the start and one for each step."""
+"""A run as a recording: one frame for the start and one for each step that is kept."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from drystone.common.text import ordinal
 from drystone.recording.contract import ABSENT, MOTIONLESS, PRESENT
 from drystone.recording.recording import POSE, FrameForces, Recording, Series
 
@@ -18,15 +20,33 @@ if TYPE_CHECKING:
 
 def recording_of_run(run: Run) -> Recording:
     """A run, with its contact forces if they were recorded."""
-    times = run.dt * np.arange(run.steps + 1)
-    still = run.motionless if run.steps else np.ones((1, len(run.names)), dtype=bool)
-    return run_recording(
-        run.scene, times, run.poses, still, run.pivots, run.solve_seconds, _forces(run)
+    steps = run.step_numbers
+    made = run_recording(
+        run.scene,
+        run.times,
+        run.poses,
+        _together(np.logical_and, run.motionless, steps)
+        if run.steps
+        else np.ones((1, len(run.names)), dtype=bool),
+        _together(np.add, run.pivots, steps),
+        _together(np.add, run.solve_seconds, steps),
+        _forces(run),
+        title=f"{len(run.names):,} bodies, {run.steps:,} steps",
     )
+    if run.every == 1:
+        return made
+    sums = [replace(one, name=f"{one.name}, sums of {run.every}") for one in made.series]
+    note = f"The run has the bodies after every {ordinal(run.every)} step."
+    return replace(made, steps=steps, series=sums, notes=[note])
+
+
+def _together(function: np.ufunc, values: NDArray[Any], steps: NDArray[np.int64]) -> NDArray[Any]:
+    """What is known of steps, of all those between two of them that are kept."""
+    return function.reduceat(values, steps[:-1]) if len(steps) > 1 else values
 
 
 def _forces(run: Run) -> FrameForces | None:
-    if run.steps == 0 or len(run.force_starts) != run.steps + 1:
+    if run.steps == 0 or len(run.force_starts) != len(run.poses):
         return None
     # The beginning has no forces of its own: it shows those of the first step.
     first = run.force_starts[1]

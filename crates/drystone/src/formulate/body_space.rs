@@ -220,8 +220,8 @@ impl<'a> BodySpace<'a> {
     }
 
     /// Forces under the largest factor of the push, and the motion in which more of it moves the blocks, in place of accelerations.
-    pub fn greatest(&self) -> Constrained {
-        self.constrained(self.problem.greatest_while(&mut || true).expect("nobody stops it"))
+    pub fn greatest_within(&self, within: f64) -> Constrained {
+        self.constrained(self.problem.greatest_within(within, &mut || true).expect("nobody stops it"))
     }
 
     pub fn solve(&self) -> Constrained {

@@ -53,6 +53,9 @@ pub struct Margin {
 /// Most questions for a boundary.
 const MOST: usize = 200;
 
+/// Lines of the boundary are as near as the nearest if they are no farther than this beside it: the first of them is the answer.
+const NEARLY: f64 = 1e-6;
+
 /// What is asked of a margin.
 #[derive(Debug, Clone, Copy)]
 pub struct Asked {
@@ -221,13 +224,26 @@ impl Probing<'_> {
                 next.extend(region.worst(tolerance));
             }
         }
-        let nearest = ends.into_iter().min_by(|a, b| a.0.distance().total_cmp(&b.0.distance()));
-        let (support, end) = nearest.expect("two directions are asked about at least");
+        let least = ends.iter().map(|(support, _)| support.distance()).fold(f64::INFINITY, f64::min);
+        let near = |(support, _): &&(Support, End)| support.distance() <= least + NEARLY * least.min(1.0);
+        let (support, end) = ends.iter().find(near).expect("two directions are asked about at least").clone();
+        let (support, end) = self.known_well(&support).unwrap_or((support, end));
         let margin = match support.distance().is_finite() {
             true => self.margin(support.distance(), support.normal, end),
             false => self.margin(f64::INFINITY, [0.0; 2], end),
         };
         Margin { boundary: region.boundary(), ..margin }
+    }
+
+    /// A support of the boundary again, as well as it can be known, where it was known to the tolerance only: it is the answer.
+    fn known_well(&mut self, support: &Support) -> Option<(Support, End)> {
+        if !support.distance().is_finite() || !self.known.is_loose() {
+            return None;
+        }
+        self.known = Known::well();
+        let found = self.along(support.toward());
+        let end = (found.status == Status::Solved).then_some(found.upper)?;
+        Some((self.support(&end, support.toward(), end.factor.max(0.0)), end))
     }
 
     /// The boundary's point towards a direction, and its line: the powers of the two pushes in the mechanism are its normal.

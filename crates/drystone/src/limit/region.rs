@@ -30,6 +30,11 @@ impl Support {
         Self { toward, point: toward.map(|x| far.min(FAR) * x), normal }
     }
 
+    /// The direction in which the point is.
+    pub fn toward(&self) -> [f64; 2] {
+        self.toward
+    }
+
     /// Of the line from the origin; infinite without one.
     pub fn distance(&self) -> f64 {
         if self.normal == [0.0; 2] { f64::INFINITY } else { dot(self.normal, self.point).max(0.0) }

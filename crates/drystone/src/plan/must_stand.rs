@@ -7,11 +7,11 @@ use super::{
 };
 use crate::{
     formulate::{Assembly, BlockSet},
-    strong::{BUDGET, strong},
+    strong::{Budget, strong},
 };
 
-/// [`Reuse`], and of what can stand whether it must. A structure of which that is not decided in [`BUDGET`] nodes counts as
-/// borderline. Only what falls has a collapse: what need not stand may be made to by more blocks.
+/// [`Reuse`], and of what can stand whether it must. A structure of which that is not decided within the default [`Budget`] counts
+/// as borderline. Only what falls has a collapse: what need not stand may be made to by more blocks.
 #[derive(Debug)]
 pub(super) struct MustStand<'a> {
     assembly: &'a Assembly,
@@ -34,7 +34,7 @@ impl StabilityTest for MustStand<'_> {
         if !can.stands {
             return Ok(can);
         }
-        let must = strong(self.assembly, blocks, BUDGET, &mut |_| true).expect("nobody stops it").must_stand;
+        let must = strong(self.assembly, blocks, Budget::default(), &mut |_| true).expect("nobody stops it").must_stand;
         Ok(TestOutcome { stands: must == Some(true), borderline: must.is_none(), ..can })
     }
 

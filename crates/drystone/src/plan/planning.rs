@@ -21,7 +21,7 @@ use crate::{
     formulate::{Assemble, Assembly, BlockSet},
     limit::accelerated,
     scene::SceneOf,
-    strong::{BUDGET, strong},
+    strong::{Budget, strong},
 };
 use std::{
     sync::atomic::AtomicBool,
@@ -115,7 +115,7 @@ fn plan_strong<S: Assemble>(
         return Err(refused("hold", conditions.hold.to_string(), "0 where every structure must stand").into());
     }
     let blocks = assembly.every_block();
-    let whole = || strong(assembly, &blocks, BUDGET, &mut |_| true).expect("nobody stops it").must_stand;
+    let whole = || strong(assembly, &blocks, Budget::default(), &mut |_| true).expect("nobody stops it").must_stand;
     plan_asking_more(scene, assembly, (whole, || MustStand::new(assembly)), conditions, limits, monitor)
 }
 

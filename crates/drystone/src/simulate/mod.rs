@@ -49,7 +49,7 @@ pub use moving::Moving;
 pub use options::{COULOMB_TOLERANCE, Formulation, Options, Reuse};
 pub use parted::parted;
 pub use record::{Inconsistent, StepRecord};
-pub use run::{Ending, Run, run};
+pub use run::{Ending, Kept, Run, run};
 pub use snapshot::snapshot_dimension;
 pub use solve::{FRICTION_ACCEPTED, FRICTION_TOLERANCE};
 pub use world::{ContactImpulse, World};

@@ -30,19 +30,37 @@ impl Ending {
     }
 }
 
-/// What a run recorded. Places and velocities have one entry more than there are steps: the first is the beginning.
+/// What a run recorded: what each step did, and where the bodies were at its beginning, after every so many steps and at its end.
 #[derive(Debug, Clone)]
 pub struct Run<S: Moving = Polygon> {
     /// How it ended.
     pub ending: Ending,
-    /// Place of every body; see [`World::poses`].
-    pub poses: Vec<Vec<S::Place>>,
-    /// Velocity of every body; see [`World::velocities`].
-    pub velocities: Vec<Vec<S::Velocity>>,
+    /// Moments at which bodies are recorded: the beginning, and one after each of some steps.
+    pub moments: usize,
+    /// The numbers of the places of all bodies, moment by moment in one row; see [`World::poses`].
+    pub poses: Vec<f64>,
+    /// Those of the velocities; see [`World::velocities`].
+    pub velocities: Vec<f64>,
     /// What each step did.
     pub records: Vec<StepRecord>,
-    /// The contacts that bore in each step, if they were asked for.
+    /// The contacts that bore in the step before each moment but the first, if they were asked for.
     pub contacts: Vec<Vec<ContactImpulse<S::Vector>>>,
+}
+
+/// What is recorded of a run beside what its steps did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Kept {
+    /// The bodies after every so many steps, and after the last.
+    pub every: usize,
+    /// The impulses at the contacts, of the same steps.
+    pub forces: bool,
+}
+
+impl Kept {
+    /// Of every step.
+    pub fn all(forces: bool) -> Self {
+        Self { every: 1, forces }
+    }
 }
 
 /// What is shown of the last step's impulses: the same of the next one, if this has the same.
@@ -52,23 +70,20 @@ struct Known<S: Moving> {
     bearing: Vec<ContactImpulse<S::Vector>>,
 }
 
-/// Makes steps and records them, with the impulses at the contacts if `forces` says so. `go_on` is asked before every
-/// step, with the number of steps made; a step that is stopped on the way ends the run too.
-pub fn run<S: Moving>(
-    world: &mut World<S>,
-    steps: usize,
-    forces: bool,
-    mut go_on: impl FnMut(usize) -> bool,
-) -> Run<S> {
+/// Makes steps and records them. `go_on` is asked before every step, with the number of steps made; a step that is stopped on the
+/// way ends the run too.
+pub fn run<S: Moving>(world: &mut World<S>, steps: usize, kept: Kept, mut go_on: impl FnMut(usize) -> bool) -> Run<S> {
     let mut run = Run {
         ending: Ending::Finished,
+        moments: 0,
         poses: Vec::new(),
         velocities: Vec::new(),
         records: Vec::new(),
         contacts: Vec::new(),
     };
-    run.take_down(world);
+    let every = kept.every.max(1);
     let mut known: Option<Known<S>> = None;
+    run.take_down(world, known.as_ref());
     for made in 0..steps {
         if !go_on(made) {
             run.ending = Ending::Interrupted;
@@ -85,14 +100,18 @@ pub fn run<S: Moving>(
                 break;
             }
         }
-        run.take_down(world);
-        if forces {
+        // Of every step: the world may know them no longer if it is stopped within the next.
+        if kept.forces {
             let (own, still) = (world.contact_impulses(), world.motionless().to_vec());
             let again = known.take().filter(|known| known.own == own && known.still == still);
-            let now = again.unwrap_or_else(|| Known { bearing: world.bearing_impulses(), own, still });
-            run.contacts.push(now.bearing.clone());
-            known = Some(now);
+            known = Some(again.unwrap_or_else(|| Known { bearing: world.bearing_impulses(), own, still }));
         }
+        if run.records.len().is_multiple_of(every) {
+            run.take_down(world, known.as_ref());
+        }
+    }
+    if !run.records.len().is_multiple_of(every) {
+        run.take_down(world, known.as_ref());
     }
     run
 }
@@ -103,8 +122,10 @@ impl<S: Moving> Run<S> {
         self.records.iter().filter(|record| !record.exact).count()
     }
 
-    fn take_down(&mut self, world: &World<S>) {
-        self.poses.push(world.poses().collect());
-        self.velocities.push(world.velocities());
+    fn take_down(&mut self, world: &World<S>, known: Option<&Known<S>>) {
+        self.moments += 1;
+        world.poses().for_each(|place| self.poses.extend_from_slice(place.as_ref()));
+        world.velocities().iter().for_each(|velocity| self.velocities.extend_from_slice(velocity.as_ref()));
+        self.contacts.extend(known.map(|known| known.bearing.clone()));
     }
 }

@@ -16,6 +16,7 @@
 
 mod answer;
 mod branch;
+mod budget;
 mod chains;
 mod escape;
 mod hinges;
@@ -26,21 +27,18 @@ mod step;
 mod turned;
 
 pub use answer::Strong;
+pub use budget::{Budget, EFFORT, Monitor, Searched};
 pub use escape::Escape;
 
 use crate::{
     check::check_blocks_while,
-    equilibrium::GoOn,
     formulate::{Assembly, BlockSet, FrictionCone},
 };
 
-/// Nodes of the search unless another budget is given.
-pub const BUDGET: usize = 500;
-
-/// Decides it for a sub-assembly, within a budget of nodes: by forces without friction, by a motion that a step finds, by the search. None
-/// if stopped.
-pub fn strong(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_on: &mut GoOn<'_>) -> Option<Strong> {
-    if held_without_friction(assembly, blocks, go_on)? {
+/// Decides it for a sub-assembly, within a budget: by forces without friction, by a motion that a step finds, by the search. None if
+/// stopped.
+pub fn strong(assembly: &Assembly, blocks: &BlockSet, budget: Budget, monitor: &mut Monitor<'_>) -> Option<Strong> {
+    if held_without_friction(assembly, blocks, monitor)? {
         return Some(Strong { must_stand: Some(true), escape: None, nodes: 1, programs: 1 });
     }
     if let Some(escape) = step::escape(assembly, blocks) {
@@ -49,11 +47,12 @@ pub fn strong(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_on: &mut
     if !assembly.in_plane() {
         return Some(Strong { must_stand: None, escape: None, nodes: 1, programs: 0 });
     }
-    search::search(assembly, blocks, budget, go_on)
+    search::search(assembly, blocks, budget, monitor)
 }
 
 /// Whether forces along the normals alone hold it: then the loads do no work in any motion that closes no contact.
-fn held_without_friction(assembly: &Assembly, blocks: &BlockSet, go_on: &mut GoOn<'_>) -> Option<bool> {
-    let verdict = check_blocks_while(&assembly.with_friction(0.0), blocks, FrictionCone::Pyramid, go_on)?;
+fn held_without_friction(assembly: &Assembly, blocks: &BlockSet, monitor: &mut Monitor<'_>) -> Option<bool> {
+    let mut go_on = |_| monitor(Searched::default());
+    let verdict = check_blocks_while(&assembly.with_friction(0.0), blocks, FrictionCone::Pyramid, &mut go_on)?;
     Some(verdict.stable)
 }

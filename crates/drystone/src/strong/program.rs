@@ -141,8 +141,8 @@ impl Writer {
     }
 }
 
-/// Solves the program of a branch from its basis.
-pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>) -> Answer {
+/// Solves the program of a branch from its basis, with no more than some effort: that which it took, and the answer.
+pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>, most: usize) -> (usize, Answer) {
     let layout = Layout::of(laws);
     let turned = turned_of(laws, branch).is_some();
     let rows = layout.objective_row(turned) + usize::from(!matches!(objective, Objective::Power));
@@ -155,30 +155,35 @@ pub(super) fn solve(laws: &Laws, branch: &Branch, objective: Objective<'_>) -> A
     }
     let Writer { names, mut starts, rows: indices, values } = columns;
     starts.push(indices.len());
+    let written = indices.len();
     let Ok(mut solver) = Columns::new(rows, &starts, &indices, &values).and_then(|g| ConeSolver::new(g, &h, &unit))
     else {
-        return Answer::Unknown;
+        return (written, Answer::Unknown);
     };
     solver.only_in_64_bits();
-    solver.limit_effort(EFFORT * rows);
+    solver.limit_effort(most.min(EFFORT * rows));
     let sought = match objective {
         Objective::Power if turned => vec![(layout.power_row(), -1.0), (layout.turned_row(), -1.0)],
         Objective::Power => vec![(layout.power_row(), -1.0)],
         _ => vec![(layout.objective_row(turned), 1.0)],
     };
-    let Ok(load) = solver.add_load(&sought) else { return Answer::Unknown };
+    let Ok(load) = solver.add_load(&sought) else { return (written, Answer::Unknown) };
     solver.add_rows(&(0..rows).collect::<Vec<_>>());
     let mut place = vec![usize::MAX; layout.turned_surplus() + 1];
     names.iter().enumerate().for_each(|(column, &name)| place[name] = column);
     solver.start_from(branch.basis.iter().map(|&name| place[name]).filter(|&column| column != usize::MAX));
-    match solver.solve() {
-        Membership::Inside => {}
-        Membership::Outside => return Answer::None,
-        _ => return Answer::Unknown,
-    }
-    let Greatest::Limited(value) = solver.greatest(load) else { return Answer::Unknown };
-    let best = if matches!(objective, Objective::Power) { value } else { -value };
-    Answer::Best(best, found(laws, &layout, &solver, &names, &place))
+    let answer = match solver.solve() {
+        Membership::Inside => match solver.greatest(load) {
+            Greatest::Limited(value) => {
+                let best = if matches!(objective, Objective::Power) { value } else { -value };
+                Answer::Best(best, found(laws, &layout, &solver, &names, &place))
+            }
+            _ => Answer::Unknown,
+        },
+        Membership::Outside => Answer::None,
+        _ => Answer::Unknown,
+    };
+    (written + solver.effort(), answer)
 }
 
 fn columns(laws: &Laws, branch: &Branch, objective: Objective<'_>, layout: &Layout) -> Writer {

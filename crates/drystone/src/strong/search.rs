@@ -3,6 +3,7 @@
 use super::{
     answer::Strong,
     branch::{Branch, Choice, Way},
+    budget::{Budget, Monitor, Searched},
     chains::{disjoint, fastest_first, rows_of_faces},
     escape::Escape,
     hinges::Turned,
@@ -10,10 +11,7 @@ use super::{
     program::{Answer, Found, Objective, solve},
     turned::virial,
 };
-use crate::{
-    equilibrium::GoOn,
-    formulate::{Assembly, BlockSet},
-};
+use crate::formulate::{Assembly, BlockSet};
 
 /// Power below which nothing moves, of that of free fall: what is left of an optimum of zero by the rounding of its multipliers. An
 /// acceleration of that power is 3e-5 of free fall.
@@ -72,6 +70,10 @@ struct Search<'a> {
     assembly: &'a Assembly,
     blocks: &'a BlockSet,
     laws: Laws<'a>,
+    budget: Budget,
+    monitor: &'a mut Monitor<'a>,
+    done: Searched,
+    stopped: bool,
     programs: usize,
     /// Whether turned loads have been looked for, and after them chains: not before the root would be split.
     turned: bool,
@@ -79,24 +81,41 @@ struct Search<'a> {
 }
 
 /// See [`super::strong`].
-pub(super) fn search(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_on: &mut GoOn<'_>) -> Option<Strong> {
+pub(super) fn search(
+    assembly: &Assembly,
+    blocks: &BlockSet,
+    budget: Budget,
+    monitor: &mut Monitor<'_>,
+) -> Option<Strong> {
     let Some(laws) = Laws::new(assembly, blocks) else {
         return Some(Strong { must_stand: Some(true), escape: None, nodes: 0, programs: 0 });
     };
     let root = Branch::root(&laws);
-    let mut search = Search { assembly, blocks, laws, programs: 0, turned: false, ordered: false };
-    let (mut open, mut nodes, mut unknown) = (vec![root], 0, false);
+    let mut search = Search {
+        assembly,
+        blocks,
+        laws,
+        budget,
+        monitor,
+        done: Searched::default(),
+        stopped: false,
+        programs: 0,
+        turned: false,
+        ordered: false,
+    };
+    let (mut open, mut unknown) = (vec![root], false);
     let mut escape = None;
     while let Some(branch) = open.pop() {
-        if nodes == budget {
+        if !budget.allows_another(search.done) {
             unknown = true;
             break;
         }
-        if !go_on(blocks.len()) {
+        search.done.nodes += 1;
+        let node = search.look(branch);
+        if search.stopped {
             return None;
         }
-        nodes += 1;
-        match search.look(branch) {
+        match node {
             Node::Closed => {}
             Node::Escapes(found) => {
                 escape = Some(found);
@@ -107,13 +126,21 @@ pub(super) fn search(assembly: &Assembly, blocks: &BlockSet, budget: usize, go_o
         }
     }
     let must_stand = if escape.is_some() { Some(false) } else { (!unknown).then_some(true) };
-    Some(Strong { must_stand, escape, nodes, programs: search.programs })
+    Some(Strong { must_stand, escape, nodes: search.done.nodes, programs: search.programs })
 }
 
 impl Search<'_> {
+    /// [`Answer::Unknown`] without any work where it was stopped, or the budget is used up.
     fn solve(&mut self, branch: &Branch, objective: Objective<'_>) -> Answer {
+        let left = self.budget.effort_left(self.done);
+        self.stopped = self.stopped || !(self.monitor)(self.done);
+        if self.stopped || left == 0 {
+            return Answer::Unknown;
+        }
         self.programs += 1;
-        solve(&self.laws, branch, objective)
+        let (effort, answer) = solve(&self.laws, branch, objective, left);
+        self.done.effort += effort as u64;
+        answer
     }
 
     /// The most power, the bound of the accelerations with it: their length squared is at most that power.

@@ -5,7 +5,7 @@ use drystone::{
     formulate::Cones,
     geometry::{Polygon, Solid},
     scenes,
-    simulate::{Ending, Formulation, Options, Reuse, SimulationError, StepFailure, World, run},
+    simulate::{Ending, Formulation, Kept, Options, Reuse, SimulationError, StepFailure, World, run},
 };
 
 fn named(name: &str) -> BodyOptions {
@@ -255,20 +255,34 @@ fn a_push_lasts_for_all_parts_of_a_step() {
 #[test]
 fn a_wild_whirl_is_refused_and_what_was_done_is_kept() {
     let mut world = whirling(2.4e6);
-    let recorded = run(&mut world, 10, true, |_| true);
+    let recorded = run(&mut world, 10, Kept::all(true), |_| true);
     let Ending::Failed(StepFailure::TooFast { dt, .. }) = recorded.ending else { panic!("{:?}", recorded.ending) };
     assert!((dt - 1.0 / 2.4e6).abs() < 1e-15);
-    assert_eq!(recorded.poses.len(), recorded.records.len() + 1);
+    assert_eq!(recorded.moments, recorded.records.len() + 1);
     assert!(!recorded.records.is_empty() && recorded.records.len() < 10);
-    let last = recorded.poses.last().unwrap();
-    assert!(world.poses().eq(last.iter().copied()));
+    let last: Vec<f64> = world.poses().flatten().collect();
+    assert_eq!(recorded.poses[recorded.poses.len() - last.len()..], last);
 }
 
 #[test]
 fn a_run_can_be_stopped() {
     let mut world = World::new(scenes::column(5, 0.5).unwrap(), Options::default()).unwrap();
-    let recorded = run(&mut world, 100, false, |made| made < 7);
-    assert_eq!((recorded.ending.name(), recorded.records.len(), recorded.poses.len()), ("interrupted", 7, 8));
+    let recorded = run(&mut world, 100, Kept::all(false), |made| made < 7);
+    assert_eq!((recorded.ending.name(), recorded.records.len(), recorded.moments), ("interrupted", 7, 8));
+}
+
+/// Of every third step and of the last what is known of all of them.
+#[test]
+fn bodies_of_every_third_step_are_those_of_all() {
+    let scene = || scenes::fall7(0.5).unwrap();
+    let recorded = |kept| run(&mut World::new(scene(), Options::default()).unwrap(), 100, kept, |made| made < 20);
+    let (all, some) = (recorded(Kept::all(true)), recorded(Kept { every: 3, forces: true }));
+    assert_eq!((some.records.len(), some.moments), (20, 8));
+    let size = all.poses.len() / all.moments;
+    let kept = [0, 3, 6, 9, 12, 15, 18, 20];
+    let of = |numbers: &[f64]| -> Vec<f64> { kept.iter().flat_map(|k| numbers[k * size..][..size].to_vec()).collect() };
+    assert_eq!((&some.poses, &some.velocities), (&of(&all.poses), &of(&all.velocities)));
+    assert!(some.contacts.iter().eq(kept[1..].iter().map(|k| &all.contacts[k - 1])));
 }
 
 /// Nothing to solve: no bodies, no contacts, no gravity.

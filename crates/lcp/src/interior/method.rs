@@ -46,6 +46,8 @@ const GAP: f64 = 1e-24;
 const GAP_OF_PUSH: f64 = 1e-18;
 /// And the residuals: forces balance the loads to some digits more than counts, whatever is between.
 const RESIDUAL_OF_PUSH: f64 = 1e-12;
+/// The same where the factor need not be known so well.
+const RESIDUAL_WITHIN: f64 = 1e-10;
 /// Forces and accelerations of contacts to begin with, in the problem's own scale: some ten of the largest load, since blocks bear one
 /// another, and nearly none, as where all stands. Of 41 structures (docs/theory/interior-point.md) iterations are 508; from one of both
 /// 607, from ten times less of the second 497, from a hundred times less digits are lost.
@@ -101,6 +103,8 @@ pub(super) struct Interior<const B: usize, const D: usize, const N: usize> {
     rests: bool,
     /// Power of the push in the motion: one where the factor is to be greatest, else none.
     rate: f64,
+    /// `f' s` of all cones that is enough there: it is the rate times what the factors of the forces and of the motion differ by.
+    enough: f64,
 }
 
 /// A Newton step, and the vectors that it takes.
@@ -159,7 +163,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
         let [f, s] = start.map(|start| axes.iter().map(|axis| start * axis).collect());
         let a = vec![[0.0; B]; problem.load.len()];
         let (cost, rests) = (problem.offset(), problem.has_no_offset());
-        Self { a, f, s, cones, massless: 0, cost, rests, t: 0.0, rate: 0.0, problem }
+        Self { a, f, s, cones, massless: 0, cost, rests, t: 0.0, rate: 0.0, enough: 0.0, problem }
     }
 
     /// The forces of least cost that hold the bodies, from some that do: (2) with `s = J a + cost` and no masses. Where
@@ -182,9 +186,10 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
 
     /// Forces that hold the bodies under as much of the push as can be, and the motion in which more of it moves them: (2) with
     /// `s = J a`, no masses, `- J' f - t push = F` and `push' a = push' push`, so that velocities are near one as loads are.
-    pub fn of_greatest_push(problem: Scaled<B, D, N>) -> Self {
+    pub fn of_greatest_push(problem: Scaled<B, D, N>, within: f64) -> Self {
         let rate = product(&problem.push, &problem.push);
-        Self { rate, ..Self::without_masses(problem) }
+        let enough = within * problem.push_unit * rate;
+        Self { rate, enough, ..Self::without_masses(problem) }
     }
 
     /// Forces that hold the bodies and the motion in which the loads do most work: (2) with `s = J a + offset` and no masses.
@@ -222,7 +227,7 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
                     return Some(self.found(End::AtRest, iteration + restoring.looks, residuals.gap));
                 }
             }
-            if merit <= 1.0 || self.rate > 0.0 && residuals.gap <= GAP_OF_PUSH && residuals.worst <= RESIDUAL_OF_PUSH {
+            if merit <= 1.0 || self.rate > 0.0 && self.enough_of_push(&residuals) {
                 return Some(self.found(End::Converged, iteration + restoring.looks, residuals.gap));
             }
             let late = residuals.gap < LATE;
@@ -243,6 +248,11 @@ impl<const B: usize, const D: usize, const N: usize> Interior<B, D, N> {
             residuals = self.residuals();
         }
         Some(self.found(End::Stalled, MOST, residuals.gap))
+    }
+
+    fn enough_of_push(&self, &Residuals { gap, worst, .. }: &Residuals<B>) -> bool {
+        let near = gap * self.cones as f64 <= self.enough && worst <= RESIDUAL_WITHIN;
+        near || gap <= GAP_OF_PUSH && worst <= RESIDUAL_OF_PUSH
     }
 
     /// Begins where the contacts would be if each gave way by as much as it bears, pushed into the cones: there bodies without

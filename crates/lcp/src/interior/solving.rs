@@ -15,7 +15,9 @@ enum Question<'a> {
     MotionFromOnes,
     /// Forces of these costs, from some that hold the bodies.
     LeastCost(&'a [f64], Vec<f64>),
-    GreatestPush,
+    GreatestPush {
+        within: f64,
+    },
     LeastEnergy,
 }
 
@@ -50,7 +52,15 @@ impl Gauss {
     /// # Panics
     /// If bodies have neither 3 nor 6 unknowns.
     pub fn greatest_while(&self, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
-        self.by_size(Question::GreatestPush, go_on)
+        self.greatest_within(0.0, go_on)
+    }
+
+    /// The same, at an end as soon as the factors that the forces and the motion give differ by no more than `within`.
+    ///
+    /// # Panics
+    /// If bodies have neither 3 nor 6 unknowns.
+    pub fn greatest_within(&self, within: f64, go_on: &mut dyn FnMut() -> bool) -> Option<Found> {
+        self.by_size(Question::GreatestPush { within }, go_on)
     }
 
     /// The displacement in which the loads do most work, with the offset that is given, and the forces after it; in place of
@@ -116,7 +126,7 @@ impl Gauss {
             Question::Motion => Interior::new(scaled),
             Question::MotionFromOnes => Interior::from_ones(scaled),
             Question::LeastCost(forces, cost) => Interior::of_least_cost(scaled, forces, cost),
-            Question::GreatestPush => Interior::of_greatest_push(scaled),
+            Question::GreatestPush { within } => Interior::of_greatest_push(scaled, within),
             Question::LeastEnergy => Interior::of_least_energy(scaled),
         }
         .solve(go_on)

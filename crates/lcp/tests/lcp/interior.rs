@@ -421,7 +421,7 @@ fn what_layers_bear_does_not_change_with_points_that_add_no_wrench() {
 /// `max t` with `G f + F + t F1 = 0`: pivots and the interior-point method find the same, and the motion of either proves it.
 #[test]
 fn the_greatest_factor_of_a_push_is_that_of_the_simplex_method() {
-    let (mut limited, mut unlimited) = (0, 0);
+    let (mut limited, mut unlimited, mut iterations) = (0, 0, [0; 2]);
     for seed in 0..120 {
         let mut problem = random(seed, 3, 4, 14, None);
         let (starts, rows, values) = generators(&problem);
@@ -442,6 +442,11 @@ fn the_greatest_factor_of_a_push_is_that_of_the_simplex_method() {
         problem.push = push.iter().map(|entry| entry.1).collect();
         let found = problem.greatest_while(&mut || true).unwrap();
         assert!((found.factor - factor).abs() <= 1e-8 * factor.abs().max(1.0), "{seed}: {} {factor}", found.factor);
+        // Where less is asked it ends earlier, with forces that hold: before the factor, but for what they leave.
+        let within = problem.greatest_within(1e-4, &mut || true).unwrap();
+        let before = (factor - within.factor) / factor.abs().max(1.0);
+        assert!(before > -1e-8 && before <= 1e-4, "{seed}: {before}");
+        [found.iterations, within.iterations].into_iter().enumerate().for_each(|(k, more)| iterations[k] += more);
         // The certificate of the pivots: y' G <= 0, y' (h - t d) = 0, y' d < 0.
         let y = solver.certificate();
         let along = |of: &dyn Fn(usize) -> f64| -> f64 { y.iter().map(|(row, y)| y * of(*row)).sum() };
@@ -449,4 +454,5 @@ fn the_greatest_factor_of_a_push_is_that_of_the_simplex_method() {
         assert!(by_push < 0.0 && (by_loads - factor * by_push).abs() <= 1e-9 * by_push.abs() * factor.abs().max(1.0));
     }
     assert!(limited > 15 && unlimited > 0, "{limited} {unlimited}");
+    assert!(10 * iterations[1] < 8 * iterations[0], "{iterations:?}");
 }
