@@ -91,7 +91,7 @@ pub(crate) fn solve<const B: usize, const D: usize>(
     }
     if D == 3 && warm && best.error > goal.tolerance {
         let most = settings.newton_steps / FOR_ONE_FROM_NOTHING;
-        counts.newton_steps += again_from_nothing(system, &mut best, &mut newton, (goal, most), counts);
+        again_from_nothing(system, &mut best, &mut newton, (goal, most), counts);
     }
     // In the plane a way from nothing arrives: for what is in error, or for all.
     let Settings { newton_steps, changes, from_nothing, .. } = *settings;
@@ -106,20 +106,19 @@ pub(crate) fn solve<const B: usize, const D: usize>(
 }
 
 /// Sweeps and solves softened problems from no impulses: where the start leads nowhere, that may lead to the answer, and does so soon then. Keeps what is
-/// better. Returns the steps.
+/// better.
 fn again_from_nothing<const B: usize, const D: usize>(
     system: &System<B, D>,
     best: &mut Best<B, D>,
     newton: &mut Newton<B, D>,
-    allowed: (Goal, usize),
+    (goal, most): (Goal, usize),
     counts: &mut Counts,
-) -> usize {
+) {
     let mut state = system.state();
     let mut other = Best::new(system, &state);
-    sweeps(system, &mut state, &mut other, (allowed.0.tolerance, SWEEPS), counts);
-    let steps = harden(system, &mut state, &mut other, newton, allowed);
+    sweeps(system, &mut state, &mut other, (goal.tolerance, SWEEPS), counts);
+    counts.newton_steps += harden(system, &mut state, &mut other, newton, (goal, most));
     best.keep(system, &other.state);
-    steps
 }
 
 /// Sweeps, until nothing changes any more.

@@ -23,8 +23,8 @@ impl<S: Kinematics> Law<S> for VelocityLevel {
         effort: Effort,
     ) -> Result<Motion<S>, StepFailure> {
         let offsets = Offsets::new(state, contacts, free);
-        let ends = |ends: &[S::Velocity]| energy_gained(state, ends);
-        solve_with_rebounds(state, previous, contacts, (free, &offsets, effort), ends)
+        let gained = |ends: &[S::Velocity]| energy_gained(state, ends);
+        solve_with_rebounds(state, previous, contacts, (free, &offsets, effort), gained)
     }
 
     fn nearly(

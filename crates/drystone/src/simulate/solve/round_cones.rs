@@ -77,19 +77,16 @@ pub fn solve_on_round_cones<S: Kinematics>(
         return Round::Left;
     }
     let soon = step.effort == Effort::Soon && axes::<S>() == 2 && step.contacts.candidates().len() >= LARGE;
-    if soon {
-        let aim = Aim { newton_steps: SOON_STEPS, changes: 0, ..Aim::at_law(state) };
-        let motion = from_impulses(state, step, &impulses_before(previous, step.contacts), aim);
-        if let Some(motion) = motion {
-            previous.forget_pivots();
-            return Round::Solved(Motion { unfinished: !motion.exact, ..motion });
-        }
-    }
+    let at_law = Aim::at_law(state);
+    let aim = if soon { Aim { newton_steps: SOON_STEPS, changes: 0, ..at_law } } else { at_law };
     let many = axes::<S>() == 3 && step.contacts.len() >= choice::MANY_ROWS;
-    match from_impulses_before(state, previous, step) {
-        Some(motion) if is_within(&motion, COARSE) || (many && gives_no_energy(step, &motion, COARSE_OF_MANY)) => {
+    let enough = |motion: &Motion<S>| {
+        soon || is_within(motion, COARSE) || (many && gives_no_energy(step, motion, COARSE_OF_MANY))
+    };
+    match from_impulses(state, step, &impulses_before(previous, step.contacts), aim) {
+        Some(motion) if enough(&motion) => {
             previous.forget_pivots();
-            Round::Solved(motion)
+            Round::Solved(Motion { unfinished: soon && !motion.exact, ..motion })
         }
         Some(motion) => Round::Coarse(motion),
         None => Round::Left,
